@@ -1,0 +1,3 @@
+#include <cstdio>
+
+int main() { std::printf("dressform " DRESSFORM_VERSION "\n"); }

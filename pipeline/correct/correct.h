@@ -1,0 +1,25 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "pipeline/fit/fit.h"
+#include "pipeline/stage.h"
+
+namespace dressform {
+
+struct CorrectedGarments {
+  std::map<std::string, TexturedMesh> garments;  // on the user; same triangles and UV; no triangle cuts the body
+  std::map<std::string, int> moved_vertices;
+  std::map<std::string, double> largest_move_m;
+  std::map<std::string, int> intersecting_pairs;  // garment/body triangle pairs left, by exact predicates
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(garments, moved_vertices, largest_move_m, intersecting_pairs);
+  }
+};
+
+struct CorrectTag { static constexpr const char* name = "correct"; };
+using Correct = Stage<CorrectTag, CorrectedGarments(const BodyModel& user, const FittedGarments&)>;
+
+}  // namespace dressform

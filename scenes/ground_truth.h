@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/camera.h"
+#include "scenes/mesh.h"
+
+namespace dressform {
+
+struct TruthGarment {
+  Mesh mesh;                        // world frame
+  std::vector<std::uint8_t> views;  // per vertex: how many sensors see it
+  TexturedMesh textured;            // the same surface with its print (from the GLB)
+};
+struct TruthRim {
+  std::string name;              // "neck", "left_cuff", "waist", "hem", ...
+  double visible = 0;            // part of the length that some sensor sees
+  std::vector<Vector3d> points;  // world frame, closed (the last joins the first)
+};
+
+// What a synthetic session knows and the pipeline must not: only `eval` reads it.
+struct GroundTruth {
+  std::map<std::string, Isometry3d> world_from_sensor;  // IR camera
+  std::map<std::string, std::vector<Isometry3d>> scan_world_from_sensor;  // "scan_naked", "scan_user": per frame
+  std::optional<Calibration> calibration;               // the true one, where it differs
+  Mesh naked_body, user_body;                           // closed; the user in its own scan's world
+  std::map<std::string, TruthGarment> garments;         // "top", "bottom"
+  std::map<std::string, std::vector<TruthRim>> rims;    // by garment
+  std::map<std::string, cv::Mat> labels;                // by sensor; uint8 at colour size: 0 none 1 skin 2 top 3 bottom
+  std::string scene_toml;
+};
+
+// Reads SESSION/truth. Throws InputError naming the file; `exists` tells whether there is any truth at all.
+bool ground_truth_exists(const std::filesystem::path& session_folder);
+GroundTruth read_ground_truth(const std::filesystem::path& session_folder);
+void write_ground_truth(const std::filesystem::path& session_folder, const GroundTruth& truth);
+
+}  // namespace dressform

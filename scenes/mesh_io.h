@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenes/mesh.h"
+
+namespace dressform {
+
+// Reads OBJ, PLY (ASCII and binary) or GLB by its extension; coincident vertices that differ only in texture
+// coordinates are joined. Throws InputError naming the file: missing, unreadable, no triangle, an index out of range,
+// a coordinate that is not finite.
+Mesh read_mesh(const std::filesystem::path& path);
+
+// The same with texture coordinates and picture. `texture` names a PNG or JPEG and overrides the one the file names.
+// Throws InputError when the file has no texture coordinates or no picture can be found.
+TexturedMesh read_textured_mesh(const std::filesystem::path& path, const std::filesystem::path& texture = {});
+
+// What a PLY may carry beside vertices and triangles; empty members are left out.
+struct PlyExtras {
+  std::vector<Vector3d> normals;
+  std::vector<Vector3f> colors;                                        // RGB 0-1, written as uchar
+  std::map<std::string, std::vector<std::uint8_t>> vertex_properties;  // e.g. "views"
+  std::vector<std::array<Vector2f, 3>> corner_uv;                      // written as face `texcoord` lists, v UP (MeshLab)
+  std::string texture_file;                                            // comment TextureFile
+};
+
+// Binary little-endian PLY, vertices as double. Written to a temporary name, then renamed.
+void write_ply(const std::filesystem::path& path, const Mesh& mesh, const PlyExtras& extras = {});
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud);
+
+// A uchar vertex property of a PLY file, e.g. "views". Throws InputError when it is not there.
+std::vector<std::uint8_t> read_ply_vertex_property(const std::filesystem::path& path, const std::string& name);
+
+// glTF 2.0 binary with the texture inside (PNG), vertices split where the texture coordinates differ.
+void write_glb(const std::filesystem::path& path, const TexturedMesh& mesh);
+
+// OBJ + MTL + PNG beside one another, for other people's tools.
+void write_obj(const std::filesystem::path& path, const TexturedMesh& mesh);
+
+}  // namespace dressform

@@ -1,0 +1,101 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/camera.h"
+#include "scenes/registry.h"
+
+namespace dressform {
+
+// What a person writes in a scene file (TOML; scenes/README.md has the format). Metres, degrees, world frame: y up,
+// floor y = 0, mannequin at the origin facing +z.
+
+struct BodySpec {
+  std::filesystem::path mesh;  // someone's own closed body, placed as given; empty: the procedural body
+  std::string sex = "male";    // proportions: "male" or "female"
+  double stature_m = 1.85, chest_m = 1.01, waist_m = 0.81, hip_m = 0.91;  // girths: tape (convex hull) round the body
+  double arm_angle_deg = 16;   // upper arms out from the vertical
+};
+
+struct PrintSpec {
+  std::string kind = "plain";            // plain, stars, complex, stripes, denim, weave, ...
+  std::vector<std::string> colors;       // "#rrggbb": ground colour, then print colours
+  std::string text;                      // characters to print, for kinds that print text
+};
+
+struct GarmentSpec {
+  std::string name;                      // for the report: "shirt 1"
+  std::string slot = "top";              // "top" or "bottom"
+  std::string kind = "shirt";            // shirt, trousers, skirt, dress
+  std::filesystem::path mesh, texture;   // someone's own garment, placed as given; empty: procedural
+  double sleeve = 0.45;                  // part of the arm from shoulder to wrist that is covered (shirts)
+  double length = 1.0;                   // trousers, skirts: part of the way from waist to ankle; shirts: see below
+  double hem_below_waist_m = 0.20;       // shirts: how far the hem hangs below the waist
+  double ease_m = 0.06;                  // garment girth minus body girth, at chest (tops) or hip (bottoms)
+  double fold_amplitude_m = 0.006;       // depth of the folds
+  PrintSpec print;
+};
+
+struct SensorSpec {
+  std::string name;                      // "k1", ...
+  SensorCalibration calibration;         // the true one; the calibrated one is the same until a scene says otherwise
+  Isometry3d world_from_sensor = Isometry3d::Identity();  // IR camera, true
+  bool body_tracking = false;            // the SDK tracks front and back views only
+  double exposure = 1.0;                 // linear gain of the colour camera against the scene's nominal exposure
+  Vector3d white_balance = Vector3d::Ones();  // linear gain per channel (RGB)
+};
+
+struct LightSpec {
+  Vector3d position_m = Vector3d(0, 2.3, 2.0);
+  double radius_m = 0.05;                // of the bulb: makes the shadows soft
+  Vector3d intensity_rgb = Vector3d::Ones();
+};
+
+struct RoomSpec {
+  double width_m = 6.0, depth_m = 5.0, height_m = 2.7;  // x, z, y
+  bool furniture = true;
+};
+
+struct ScanSpec {
+  SensorCalibration calibration;         // the hand-held sensor (depth only)
+  int frames = 120;
+  double radius_m = 1.9, height_m = 1.15;
+};
+
+struct PriorSpec {
+  double rotation_deg = 5.0;             // sigma of the rig prior's error, cut at twice that
+  double translation_m = 0.08;
+};
+
+// A named model and its parameters, e.g. sensor = "fankhauser" with [sensor.fankhauser] overrides.
+struct VariantChoice {
+  std::string variant;
+  FieldValues values;
+};
+
+struct Scene {
+  std::string name;
+  std::filesystem::path file;            // where it was read; relative paths in it start at this file's folder
+  std::string toml;                      // the text as read, for provenance
+  std::string description;
+  RoomSpec room;
+  std::vector<LightSpec> lights;
+  BodySpec body, user;
+  std::vector<GarmentSpec> garments;     // at most one per slot
+  std::vector<SensorSpec> rig;
+  ScanSpec scan;
+  PriorSpec prior;
+  VariantChoice sensor_model{"fankhauser", {}};
+};
+
+// Reads a scene file and the files it refers to (`rig = "rigs/thesis.toml"`). Throws InputError with file, line and
+// column for syntax, unknown keys, wrong types and ranges.
+Scene read_scene(const std::filesystem::path& file);
+
+// The scene with all images resampled by `scale` (0 < scale <= 1), for quick runs.
+Scene scaled(const Scene& scene, double scale);
+
+}  // namespace dressform

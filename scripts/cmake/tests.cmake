@@ -1,0 +1,22 @@
+# One test program per folder from the *_test.cpp files beside its sources.
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+function(dressform_tests folder)
+  file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*_test.cpp)
+  if(NOT tests)
+    return()
+  endif()
+  add_executable(${folder}_test ${tests})
+  dressform_link(${folder}_test ${ARGN} ${folder})
+  target_link_libraries(${folder}_test PRIVATE GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${folder}_test PRIVATE DRESSFORM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  gtest_discover_tests(${folder}_test TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+endfunction()
+
+dressform_tests(scenes)
+dressform_tests(synthetic scenes)
+dressform_tests(pipeline scenes)
+dressform_tests(render scenes)
+dressform_tests(eval scenes synthetic pipeline render)
+add_test(NAME layers COMMAND ${CMAKE_SOURCE_DIR}/scripts/check_layers ${CMAKE_SOURCE_DIR})

@@ -1,0 +1,21 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "scenes/capture_session.h"
+#include "scenes/ground_truth.h"
+#include "scenes/scene.h"
+
+namespace dressform {
+
+struct SyntheticCapture {
+  CaptureSession session;
+  GroundTruth truth;
+};
+
+// Captures the scene with the scene's sensor model. Deterministic in (scene, seed), whatever the thread count.
+// `progress(done, total, what)` is called from the calling thread as shots are finished; it may be empty.
+using SynthesisProgress = std::function<void(int done, int total, const std::string& what)>;
+SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgress& progress = {});
+
+}  // namespace dressform
