@@ -19,7 +19,10 @@ struct CorrectedGarments {
   }
 };
 
-struct CorrectTag { static constexpr const char* name = "correct"; };
+struct CorrectTag {
+  static constexpr const char* name = "correct";
+  static constexpr const char* default_variant = "signed_distance_smooth";
+};
 using Correct = Stage<CorrectTag, CorrectedGarments(const BodyModel& user, const FittedGarments&)>;
 
 }  // namespace dressform

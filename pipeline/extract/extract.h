@@ -30,7 +30,10 @@ struct ExtractedViews {
   }
 };
 
-struct ExtractTag { static constexpr const char* name = "extract"; };
+struct ExtractTag {
+  static constexpr const char* name = "extract";
+  static constexpr const char* default_variant = "cluster";
+};
 using Extract = Stage<ExtractTag, ExtractedViews(const CaptureSession&, const Calibration&, const BodyModel& naked)>;
 
 }  // namespace dressform

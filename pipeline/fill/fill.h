@@ -28,7 +28,10 @@ struct FilledViews {
   }
 };
 
-struct FillTag { static constexpr const char* name = "fill"; };
+struct FillTag {
+  static constexpr const char* name = "fill";
+  static constexpr const char* default_variant = "reproject";
+};
 using Fill = Stage<FillTag, FilledViews(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                         const Registration&, const Segmentation&)>;
 

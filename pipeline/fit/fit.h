@@ -22,7 +22,10 @@ struct FittedGarments {
   }
 };
 
-struct FitTag { static constexpr const char* name = "fit"; };
+struct FitTag {
+  static constexpr const char* name = "fit";
+  static constexpr const char* default_variant = "rbf";
+};
 using Fit = Stage<FitTag, FittedGarments(const BodyModel& naked, const BodyModel& user, const TexturedGarments&)>;
 
 }  // namespace dressform

@@ -25,7 +25,10 @@ struct BodyModel {
   }
 };
 
-struct FuseTag { static constexpr const char* name = "fuse"; };
+struct FuseTag {
+  static constexpr const char* name = "fuse";
+  static constexpr const char* default_variant = "frame_to_model";
+};
 
 // Model frame: metres, y up (gravity, from the floor plane), floor at y = 0, the body's axis at x = z = 0. The heading
 // about y is the scan's own and means nothing.

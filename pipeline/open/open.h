@@ -37,7 +37,10 @@ struct OpenGarments {
   }
 };
 
-struct OpenTag { static constexpr const char* name = "open"; };
+struct OpenTag {
+  static constexpr const char* name = "open";
+  static constexpr const char* default_variant = "min_cut_spline";
+};
 using Open = Stage<OpenTag, OpenGarments(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                          const Registration&, const Segmentation&, const ClosedGarments&)>;
 

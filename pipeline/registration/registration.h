@@ -23,7 +23,10 @@ struct Registration {
   }
 };
 
-struct RegisterTag { static constexpr const char* name = "registration"; };
+struct RegisterTag {
+  static constexpr const char* name = "registration";
+  static constexpr const char* default_variant = "joint";
+};
 using Register = Stage<RegisterTag, Registration(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                                  const ExtractedViews&)>;
 

@@ -20,7 +20,10 @@ struct Segmentation {
   }
 };
 
-struct SegmentTag { static constexpr const char* name = "segment"; };
+struct SegmentTag {
+  static constexpr const char* name = "segment";
+  static constexpr const char* default_variant = "joint_mrf";
+};
 // Dressed shots. Views that are not registered are labelled none throughout.
 using Segment = Stage<SegmentTag, Segmentation(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                                const ExtractedViews&, const Registration&)>;

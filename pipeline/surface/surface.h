@@ -25,7 +25,10 @@ struct ClosedGarments {
   }
 };
 
-struct SurfaceTag { static constexpr const char* name = "surface"; };
+struct SurfaceTag {
+  static constexpr const char* name = "surface";
+  static constexpr const char* default_variant = "poisson";
+};
 using Surface = Stage<SurfaceTag, ClosedGarments(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                                  const Registration&, const FilledViews&)>;
 

@@ -18,7 +18,10 @@ struct TexturedGarments {
   }
 };
 
-struct TextureTag { static constexpr const char* name = "texture"; };
+struct TextureTag {
+  static constexpr const char* name = "texture";
+  static constexpr const char* default_variant = "levelled";
+};
 using Texture = Stage<TextureTag, TexturedGarments(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                                    const Registration&, const FilledViews&, const OpenGarments&)>;
 
