@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 
@@ -19,9 +20,11 @@ struct Camera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   std::array<double, 5> distortion{0, 0, 0, 0, 0};
 
-  // Pixel (distorted) of a point in the camera frame with z > 0.
+  // Pixel (distorted) of a point in the camera frame with z > 0. Directions so far out that the distortion polynomial
+  // has folded back are projected without distortion, so that they never land inside the image.
   Vector2d project(const Vector3d& point_in_camera) const;
   // Ideal image-plane coordinates (x/z, y/z) of a raw pixel: the distortion is inverted by iteration, to < 1e-9.
+  // Where no direction is seen at the pixel (beyond the fold), the direction that comes nearest.
   Vector2d normalized(const Vector2d& pixel) const;
   // Point in the camera frame seen at `pixel` with the given z, metres.
   Vector3d unproject(const Vector2d& pixel, double depth_m) const;
@@ -36,6 +39,9 @@ struct Camera {
     archive(width, height, fx, fy, cx, cy, distortion);
   }
 };
+
+// Ideal image-plane coordinates of every pixel, computed once: CV_64FC2, height x width, each `normalized({x, y})`.
+cv::Mat normalized_grid(const Camera& camera);
 
 // One Kinect: colour camera (absent for a bare depth scanner), infrared camera (its grid is the depth's), and the step
 // between them. measured depth = true depth + depth_offset_m.

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -59,7 +60,9 @@ std::vector<Vector3d> vertex_normals(const Mesh& mesh);
 // Throws std::invalid_argument when an edge has more than two triangles.
 std::vector<std::vector<int>> boundary_loops(const Mesh& mesh);
 
-// Number of boundary edges, of edges shared by more than two triangles, and the Euler characteristic of a mesh.
+// Two counts are of connected pieces: `components` of triangles joined by vertices, `loops` of boundary edges (as many
+// as boundary_loops finds; where the mesh is not manifold, the connected pieces of its boundary). Number of boundary
+// edges, of edges shared by more than two triangles, and the Euler characteristic of a mesh.
 struct Topology {
   int vertices = 0, edges = 0, triangles = 0, boundary_edges = 0, non_manifold_edges = 0, components = 0, loops = 0;
   int euler() const { return vertices - edges + triangles; }
