@@ -1,0 +1,210 @@
+#include "scenes/scene.h"
+
+#include <cmath>
+#include <set>
+
+#include "scenes/scene_fields.h"
+#include "scenes/toml_section.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+Isometry3d world_from_placed_sensor(const SensorPlace& place) {
+  const double azimuth = place.azimuth_deg * kDegree;
+  const Vector3d outward(std::sin(azimuth), 0, std::cos(azimuth));
+  Eigen::Matrix3d level;  // columns: the sensor's right, down and forward in the world
+  level.col(2) = -outward;
+  level.col(1) = -Vector3d::UnitY();
+  level.col(0) = level.col(1).cross(level.col(2));
+  Isometry3d world_from_sensor = Isometry3d::Identity();
+  world_from_sensor.linear() = (Eigen::AngleAxisd(place.yaw_deg * kDegree, Vector3d::UnitY()) * level *
+                                Eigen::AngleAxisd(place.pitch_deg * kDegree, Vector3d::UnitX()).toRotationMatrix() *
+                                Eigen::AngleAxisd(place.roll_deg * kDegree, Vector3d::UnitZ()).toRotationMatrix());
+  world_from_sensor.translation() = outward * place.distance_m + Vector3d(0, place.height_m, 0);
+  return world_from_sensor;
+}
+
+Camera read_camera(TomlSection& section) {
+  Camera camera;
+  fields(section, camera);
+  for (const char* key : {"width", "height", "fx", "fy", "cx", "cy"})
+    if (!section.has(key)) section.fail("", std::string("found no ") + key + "; expected it in every camera");
+  Eigen::VectorXd distortion = Eigen::VectorXd::Zero(5);
+  section.vector("distortion", distortion, 5, -10, 10, "");
+  for (int i = 0; i < 5; ++i) camera.distortion[i] = distortion[i];
+  return camera;
+}
+
+Isometry3d read_step(TomlSection& section) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vector3d translation = Vector3d::Zero();
+  section.rotation("rotation", rotation);
+  section.vector3("translation_m", translation, -10, 10, "m");
+  Isometry3d step = Isometry3d::Identity();
+  step.linear() = rotation;
+  step.translation() = translation;
+  return step;
+}
+
+SensorCalibration read_calibration(TomlSection& section) {
+  SensorCalibration calibration;
+  calibration.model = "kinect_v2";
+  section("model", calibration.model, {}, "");
+  section("depth_offset_m", calibration.depth_offset_m, -0.2, 0.2, "m", "");
+  if (!section.has("ir")) section.fail("", "found no ir camera; expected one (colour may be absent)");
+  section.child("ir", [&](TomlSection& ir) { calibration.ir = read_camera(ir); });
+  section.child("color", [&](TomlSection& color) { calibration.color = read_camera(color); });
+  section.child("color_from_ir", [&](TomlSection& step) { calibration.color_from_ir = read_step(step); });
+  return calibration;
+}
+
+SensorSpec read_sensor(TomlSection& section) {
+  SensorSpec sensor;
+  section("name", sensor.name, {}, "");
+  if (sensor.name.empty() || sensor.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != sensor.name.npos)
+    section.fail("name", "found \"" + sensor.name + "\"; expected letters a-z, digits and _");
+  sensor.calibration = read_calibration(section);
+  section("body_tracking", sensor.body_tracking, "");
+  section("exposure", sensor.exposure, 0.05, 20.0, "", "");
+  section.vector3("white_balance", sensor.white_balance, 0.2, 5, "");
+  if (section.has("world_from_sensor")) {
+    section.child("world_from_sensor", [&](TomlSection& step) { sensor.world_from_sensor = read_step(step); });
+  } else {
+    SensorPlace place;
+    fields(section, place);
+    sensor.world_from_sensor = world_from_placed_sensor(place);
+  }
+  return sensor;
+}
+
+BodySpec read_body(TomlSection& section) {
+  BodySpec body;
+  section.path("mesh", body.mesh);
+  fields(section, body);
+  return body;
+}
+
+GarmentSpec read_garment(TomlSection& section) {
+  GarmentSpec garment;
+  fields(section, garment);
+  if (!section.has("kind")) section.fail("", "found no kind; expected shirt, trousers, skirt or dress");
+  garment.slot = garment.kind == "shirt" || garment.kind == "dress" ? "top" : "bottom";
+  if (garment.name.empty()) garment.name = garment.kind;
+  section.path("mesh", garment.mesh);
+  section.path("texture", garment.texture);
+  if (garment.mesh.empty() && !garment.texture.empty())
+    section.fail("texture", "found a texture without a mesh; expected `mesh` beside it, or a [garment.print]");
+  section.child("print", [&](TomlSection& print) {
+    fields(print, garment.print);
+    print.texts("colors", garment.print.colors);
+    for (const auto& color : garment.print.colors)
+      if (color.size() != 7 || color[0] != '#' || color.find_first_not_of("0123456789abcdefABCDEF", 1) != color.npos)
+        print.fail("colors", "found \"" + color + "\"; expected \"#rrggbb\"");
+  });
+  return garment;
+}
+
+LightSpec read_light(TomlSection& section) {
+  LightSpec light;
+  section.vector3("position_m", light.position_m, -50, 50, "m");
+  section("radius_m", light.radius_m, 0.001, 2.0, "m", "of the bulb");
+  section.vector3("intensity_rgb", light.intensity_rgb, 0, 1000, "");
+  return light;
+}
+
+void read_room(TomlSection& section, Scene& scene) {
+  fields(section, scene.room);
+  section.children("light", [&](TomlSection& light) { scene.lights.push_back(read_light(light)); });
+}
+
+void read_rig(TomlSection& section, Scene& scene) {
+  std::set<std::string> names;
+  section.children("sensor", [&](TomlSection& sensor) {
+    scene.rig.push_back(read_sensor(sensor));
+    const auto& name = scene.rig.back().name;
+    if (!names.insert(name).second) sensor.fail("name", "found \"" + name + "\" twice; expected different names");
+  });
+  if (scene.rig.empty()) section.fail("", "found no [[sensor]]; expected at least one");
+}
+
+void read_scan(TomlSection& section, ScanSpec& scan) {
+  fields(section, scan);
+  if (!section.has("sensor")) section.fail("", "found no sensor; expected [scan.sensor] with an ir camera");
+  section.child("sensor", [&](TomlSection& sensor) { scan.calibration = read_calibration(sensor); });
+}
+
+void read_garments(TomlSection& section, Scene& scene) {
+  std::set<std::string> slots;
+  section.children("garment", [&](TomlSection& garment) {
+    scene.garments.push_back(read_garment(garment));
+    const auto& slot = scene.garments.back().slot;
+    if (!slots.insert(slot).second) garment.fail("", "found a second " + slot + " garment; expected one at most");
+  });
+  if (scene.garments.empty()) section.fail("", "found no [[garment]]; expected one or two");
+}
+
+void read_sensor_model(TomlSection& section, VariantChoice& choice) {
+  section("model", choice.variant, {}, "");
+  choice.values = section.values(choice.variant.c_str());
+}
+
+// The scene as written, followed by the files it refers to, as comments: what it was made of can be read from one text.
+std::string full_text(const TomlFiles& files) {
+  std::string text = files.files().front().text;
+  for (std::size_t i = 1; i < files.files().size(); ++i) {
+    const auto& file = files.files()[i];
+    text += (text.empty() || text.back() == '\n' ? "" : "\n") + ("\n# --- " + file.name + "\n# ");
+    for (const char letter : file.text) text += letter == '\n' ? std::string("\n# ") : std::string(1, letter);
+    text += "\n";
+  }
+  return text;
+}
+
+Scene read(TomlFiles& files, const std::filesystem::path& file) {
+  Scene scene;
+  scene.file = file;
+  TomlSection section(files, files.open(file, file.filename().string(), ""), "");
+  scene.name = file.stem().string();
+  section("name", scene.name, {}, "");
+  section("description", scene.description, {}, "");
+  section.child("room", [&](TomlSection& room) { read_room(room, scene); });
+  if (scene.lights.empty()) scene.lights.push_back({});
+  section.child("body", [&](TomlSection& body) { scene.body = read_body(body); });
+  scene.user = scene.body;
+  section.child("user", [&](TomlSection& user) { scene.user = read_body(user); });
+  for (const char* key : {"rig", "scan"})
+    if (!section.has(key)) section.fail("", std::string("found no ") + key + "; expected a table or a file name");
+  section.child("rig", [&](TomlSection& rig) { read_rig(rig, scene); });
+  section.child("scan", [&](TomlSection& scan) { read_scan(scan, scene.scan); });
+  read_garments(section, scene);
+  section.child("prior", [&](TomlSection& prior) { fields(prior, scene.prior); });
+  section.child("sensor", [&](TomlSection& sensor) { read_sensor_model(sensor, scene.sensor_model); });
+  section.finish();
+  scene.toml = full_text(files);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  TomlFiles files;
+  return read(files, file);
+}
+
+Scene scaled(const Scene& scene, double scale) {
+  if (!(scale > 0 && scale <= 1))
+    throw InputError("scale", "found " + to_text(FieldValue(scale)) + "; expected a number above 0, at most 1");
+  if (scale == 1) return scene;
+  Scene result = scene;
+  const auto shrink = [&](SensorCalibration& calibration) {
+    calibration.ir = calibration.ir.scaled(scale);
+    if (calibration.color) calibration.color = calibration.color->scaled(scale);
+  };
+  for (auto& sensor : result.rig) shrink(sensor.calibration);
+  shrink(result.scan.calibration);
+  return result;
+}
+
+}  // namespace dressform

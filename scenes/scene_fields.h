@@ -1,0 +1,81 @@
+#pragma once
+#include "scenes/scene.h"
+
+namespace dressform {
+
+// The plain fields of a scene, each described once (scenes/fields.h). Paths and vectors are read in scene.cpp.
+
+template <class V>
+void fields(V& v, BodySpec& body) {
+  v("sex", body.sex, {"male", "female"}, "proportions of the procedural body");
+  v("stature_m", body.stature_m, 1.0, 2.3, "m", "height from floor to crown");
+  v("chest_m", body.chest_m, 0.5, 1.8, "m", "tape girth round the chest, arms left out");
+  v("waist_m", body.waist_m, 0.4, 1.8, "m", "tape girth round the waist");
+  v("hip_m", body.hip_m, 0.5, 1.8, "m", "tape girth round the hip");
+  v("arm_angle_deg", body.arm_angle_deg, 5.0, 60.0, "deg", "upper arms out from the vertical");
+}
+
+template <class V>
+void fields(V& v, PrintSpec& print) {
+  v("kind", print.kind, {}, "plain, stars, complex, stripes, denim, weave or another print that synthetic/ can paint");
+  v("text", print.text, {}, "characters to print, for kinds that print text");
+}
+
+template <class V>
+void fields(V& v, GarmentSpec& garment) {
+  v("name", garment.name, {}, "for the report: \"shirt 1\"");
+  v("kind", garment.kind, {"shirt", "trousers", "skirt", "dress"}, "what it is; tells the slot and the openings");
+  v("sleeve", garment.sleeve, 0.0, 1.0, "", "part of the arm from shoulder to wrist that is covered");
+  v("length", garment.length, 0.1, 1.1, "", "trousers, skirts, dresses: part of the way from waist to ankle");
+  v("hem_below_waist_m", garment.hem_below_waist_m, 0.0, 0.6, "m", "shirts: how far the hem hangs below the waist");
+  v("ease_m", garment.ease_m, 0.0, 0.5, "m", "garment girth minus body girth, at chest (tops) or hip (bottoms)");
+  v("fold_amplitude_m", garment.fold_amplitude_m, 0.0, 0.03, "m", "depth of the folds");
+}
+
+template <class V>
+void fields(V& v, RoomSpec& room) {
+  v("width_m", room.width_m, 2.0, 20.0, "m", "size along x");
+  v("depth_m", room.depth_m, 2.0, 20.0, "m", "size along z");
+  v("height_m", room.height_m, 2.0, 10.0, "m", "size along y");
+  v("furniture", room.furniture, "whether things stand along the walls");
+}
+
+template <class V>
+void fields(V& v, ScanSpec& scan) {
+  v("frames", scan.frames, 1, 2000, "", "depth frames of one walk round the body");
+  v("radius_m", scan.radius_m, 0.6, 4.0, "m", "distance of the hand-held sensor from the body's axis");
+  v("height_m", scan.height_m, 0.2, 2.5, "m", "mean height of the hand-held sensor");
+}
+
+template <class V>
+void fields(V& v, PriorSpec& prior) {
+  v("rotation_deg", prior.rotation_deg, 0.0, 60.0, "deg", "sigma of the rig prior's error, cut at twice that");
+  v("translation_m", prior.translation_m, 0.0, 1.0, "m", "sigma of the rig prior's error, cut at twice that");
+}
+
+template <class V>
+void fields(V& v, Camera& camera) {
+  v("width", camera.width, 1, 8192, "px", "columns");
+  v("height", camera.height, 1, 8192, "px", "rows");
+  v("fx", camera.fx, 1.0, 1e5, "px", "focal length in x");
+  v("fy", camera.fy, 1.0, 1e5, "px", "focal length in y");
+  v("cx", camera.cx, -8192.0, 16384.0, "px", "principal point, column");
+  v("cy", camera.cy, -8192.0, 16384.0, "px", "principal point, row");
+}
+
+// Where a sensor stands: round the mannequin's axis, and how it deviates from looking at that axis level.
+struct SensorPlace {
+  double azimuth_deg = 0, distance_m = 2.1, height_m = 1.25, yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+};
+
+template <class V>
+void fields(V& v, SensorPlace& place) {
+  v("azimuth_deg", place.azimuth_deg, -360.0, 360.0, "deg", "round the axis: 0 in front (+z), 90 at +x");
+  v("distance_m", place.distance_m, 0.3, 10.0, "m", "from the axis, level");
+  v("height_m", place.height_m, 0.0, 5.0, "m", "above the floor");
+  v("yaw_deg", place.yaw_deg, -180.0, 180.0, "deg", "turned to its left, about y");
+  v("pitch_deg", place.pitch_deg, -90.0, 90.0, "deg", "looking up");
+  v("roll_deg", place.roll_deg, -180.0, 180.0, "deg", "its right side down");
+}
+
+}  // namespace dressform
