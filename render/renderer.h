@@ -23,7 +23,7 @@ struct RenderItem {
   Eigen::Vector3f color = Eigen::Vector3f(0.75f, 0.75f, 0.78f);  // RGB sRGB, for shaded, wireframe, uncoloured points
   std::vector<double> scalars;  // per vertex (mesh) or point, for Shading::scalar; NaN is drawn grey
   double scalar_minimum = 0, scalar_maximum = 1;
-  bool two_sided = true;        // garments: the inside is drawn, darker
+  bool two_sided = true;  // garments: the inside is drawn, darker
   float opacity = 1;
 };
 
@@ -50,6 +50,10 @@ class Renderer {
 
   // 8-bit BGR picture of camera.width x camera.height (BGRA with a transparent background).
   cv::Mat render(const RenderView& view, const std::vector<RenderItem>& items, const RenderOptions& options = {});
+
+  // The same for several views; the items are prepared once.
+  std::vector<cv::Mat> render(const std::vector<RenderView>& views, const std::vector<RenderItem>& items,
+                              const RenderOptions& options = {});
 
   // Coverage of the items: uint8, 255 where something is drawn, no anti-aliasing.
   cv::Mat mask(const RenderView& view, const std::vector<RenderItem>& items);

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "render/color_map.h"
+#include "render/renderer.h"
+
+namespace dressform {
+namespace {
+
+constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+
+// A round step (1, 2 or 5 times a power of ten) that divides the range into at most `most` parts.
+double round_step(double range, int most) {
+  const double raw = range / most, power = std::pow(10, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= raw * (1 - 1e-9)) return factor * power;
+  return 10 * power;
+}
+
+std::string tick_text(double value, double step) {
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::min(decimals, 9), std::abs(value) < 1e-12 ? 0.0 : value);
+  return text;
+}
+
+struct Lettering {
+  double scale;
+  int thickness;
+  cv::Size size(const std::string& text) const { return cv::getTextSize(text, kFont, scale, thickness, nullptr); }
+  void write(cv::Mat& picture, const std::string& text, cv::Point left_middle) const {
+    cv::putText(picture, text, {left_middle.x, left_middle.y + size(text).height / 2}, kFont, scale,
+                cv::Scalar(30, 30, 30), thickness, cv::LINE_AA);
+  }
+};
+
+void draw_bar(cv::Mat& panel, const cv::Rect& bar) {
+  cv::Mat colors, flipped;
+  cv::flip(scalar_colors(), flipped, 0);
+  cv::resize(flipped, colors, bar.size(), 0, 0, cv::INTER_LINEAR);
+  colors.copyTo(panel(bar));
+  cv::rectangle(panel, bar, cv::Scalar(60, 60, 60), 1);
+}
+
+void draw_ticks(cv::Mat& panel, const cv::Rect& bar, double minimum, double maximum, const Lettering& letters) {
+  const double step = round_step(maximum - minimum, std::clamp(bar.height / (3 * letters.size("0").height + 1), 1, 8));
+  for (double k = std::ceil(minimum / step - 1e-9); k * step <= maximum + 1e-9 * step; ++k) {
+    const double part = (k * step - minimum) / (maximum - minimum);
+    const int y = bar.y + static_cast<int>(std::lround((1 - part) * (bar.height - 1)));
+    cv::line(panel, {bar.x + bar.width, y}, {bar.x + bar.width + bar.width / 3, y}, cv::Scalar(60, 60, 60), 1);
+    letters.write(panel, tick_text(k * step, step), {bar.x + bar.width + bar.width / 2, y});
+  }
+}
+
+}  // namespace
+
+cv::Mat with_color_bar(const cv::Mat& picture, double minimum, double maximum, const std::string& unit,
+                       const std::string& title) {
+  if (picture.type() != CV_8UC3 || picture.empty() || !(maximum > minimum) || !std::isfinite(maximum - minimum))
+    throw std::invalid_argument("with_color_bar: an 8-bit BGR picture and minimum < maximum are needed");
+  const double scale = std::clamp(picture.rows / 900.0, 0.35, 1.2);
+  const Lettering letters{scale, scale > 0.7 ? 2 : 1};
+  const int line = letters.size("0g").height, bar_width = std::max(8, static_cast<int>(28 * scale));
+  const std::string heading = unit.empty() ? title : title.empty() ? unit : title + " [" + unit + "]";
+  const int ticks_width = letters.size("-00000.0").width + 2 * bar_width;
+  const int width = std::max(letters.size(heading).width + 2 * line, ticks_width + 2 * line);
+  cv::Mat panel(picture.rows, width, CV_8UC3, cv::Scalar::all(255));
+  letters.write(panel, heading, {line, 2 * line});
+  const int top = std::min(4 * line, picture.rows / 3), bottom = std::min(2 * line, picture.rows / 4);
+  const cv::Rect bar(line, top, bar_width, std::max(2, picture.rows - top - bottom));
+  draw_bar(panel, bar);
+  draw_ticks(panel, bar, minimum, maximum, letters);
+  cv::Mat result;
+  cv::hconcat(picture, panel, result);
+  return result;
+}
+
+}  // namespace dressform
