@@ -8,7 +8,8 @@
 
 namespace dressform {
 
-// Where the mannequin is, in one view. uint8 masks: 255 mannequin (with clothes, when dressed; without the stand), 0 not.
+// Where the mannequin is, in one view. uint8 masks: 255 mannequin (with clothes, when dressed; without the stand), 0
+// not.
 struct ViewMasks {
   cv::Mat naked, dressed;              // on the depth grid
   cv::Mat naked_color, dressed_color;  // at colour size

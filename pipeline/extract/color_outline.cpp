@@ -1,0 +1,140 @@
+#include "pipeline/extract/color_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "pipeline/common/color_histogram.h"
+#include "pipeline/common/color_mapping.h"
+#include "pipeline/common/graph_cut.h"
+
+namespace dressform {
+namespace {
+
+constexpr int kBlocks = 12;     // colour models along the body's height
+constexpr float kMostNats = 4;  // of one cue
+
+cv::Mat ellipse(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
+}
+
+// Pixels from the outline: negative inside the mask, positive outside.
+cv::Mat signed_distance_px(const cv::Mat& mask) {
+  cv::Mat inside, outside;
+  cv::distanceTransform(mask, inside, cv::DIST_L2, 5);
+  cv::distanceTransform(255 - mask, outside, cv::DIST_L2, 5);
+  return outside - inside;
+}
+
+struct LocalModels {
+  std::vector<ColorHistogram> body, around;  // by block of rows
+  int rows_per_block = 1;
+};
+
+LocalModels learn(const cv::Mat& lab, const cv::Mat& sure_body, const cv::Mat& sure_around) {
+  LocalModels models;
+  models.rows_per_block = std::max(1, (lab.rows + kBlocks - 1) / kBlocks);
+  for (int block = 0; block < kBlocks; ++block) {
+    const int from = std::max(0, (block - 1) * models.rows_per_block);
+    const int to = std::min(lab.rows, (block + 2) * models.rows_per_block);
+    models.body.emplace_back();
+    models.around.emplace_back();
+    if (from >= to) continue;
+    const cv::Range rows(from, to);
+    models.body.back().add(lab.rowRange(rows), sure_body.rowRange(rows));
+    models.around.back().add(lab.rowRange(rows), sure_around.rowRange(rows));
+    models.body.back().finish();
+    models.around.back().finish();
+  }
+  return models;
+}
+
+cv::Mat color_distance(const cv::Mat& a, const cv::Mat& b) {
+  cv::Mat smooth_a, smooth_b, difference, channels[3], distance;
+  cv::GaussianBlur(a, smooth_a, cv::Size(3, 3), 0);
+  cv::GaussianBlur(b, smooth_b, cv::Size(3, 3), 0);
+  cv::absdiff(smooth_a, smooth_b, difference);
+  cv::split(difference, channels);
+  cv::max(channels[0], channels[1], distance);
+  cv::max(distance, channels[2], distance);
+  return distance;  // uint8
+}
+
+// Median of the values where mask != 0; `otherwise` when there are none.
+double median_of(const cv::Mat& values, const cv::Mat& mask, double otherwise) {
+  std::vector<uchar> kept;
+  for (int y = 0; y < values.rows; ++y)
+    for (int x = 0; x < values.cols; ++x)
+      if (mask.at<uchar>(y, x)) kept.push_back(values.at<uchar>(y, x));
+  if (kept.empty()) return otherwise;
+  std::nth_element(kept.begin(), kept.begin() + kept.size() / 2, kept.end());
+  return kept[kept.size() / 2];
+}
+
+// Nats in favour of the surroundings where the picture equals the one without clothes.
+void add_unchanged(const cv::Mat& bgr, const Background& background, const cv::Mat& around, cv::Mat& cost) {
+  const cv::Mat change = color_distance(bgr, background.bgr);
+  cv::Mat visible = around & (background.body == 0);
+  const double noise = std::max(1.5, median_of(change, visible, 2));
+  for (int y = 0; y < cost.rows; ++y) {
+    for (int x = 0; x < cost.cols; ++x) {
+      if (background.body.at<uchar>(y, x)) continue;
+      const float nats = kMostNats * (1 - change.at<uchar>(y, x) / static_cast<float>(4 * noise));
+      cost.at<float>(y, x) += std::clamp(nats, -kMostNats, kMostNats);
+    }
+  }
+}
+
+// Cost of "body" less cost of "not body" from colours and from the distance to the depth's outline.
+cv::Mat color_cost(const cv::Mat& lab, const LocalModels& models, const cv::Mat& distance_px, double band_px) {
+  cv::Mat cost(lab.size(), CV_32F);
+  for (int y = 0; y < lab.rows; ++y) {
+    const int block = std::min(kBlocks - 1, y / models.rows_per_block);
+    for (int x = 0; x < lab.cols; ++x) {
+      const auto& color = lab.at<cv::Vec3b>(y, x);
+      const float nats = models.around[block].log_density(color) - models.body[block].log_density(color);
+      const float away = distance_px.at<float>(y, x) / static_cast<float>(band_px);
+      cost.at<float>(y, x) = std::clamp(nats, -kMostNats, kMostNats) + std::clamp(2 * away, -kMostNats, kMostNats);
+    }
+  }
+  return cost;
+}
+
+cv::Rect grown_box(const cv::Mat& mask, int margin) {
+  const cv::Rect box = cv::boundingRect(mask);
+  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+         cv::Rect({0, 0}, mask.size());
+}
+
+}  // namespace
+
+cv::Mat color_outline(const cv::Mat& bgr, const cv::Mat& depth_mm, const cv::Mat& mask, const SensorCalibration& sensor,
+                      const OutlineParams& params, const Background* background) {
+  const ColorDepthMap map = color_depth_map(depth_mm, sensor);
+  cv::Mat known = map.depth_mm > 0, body = to_color(mask, map);
+  cv::Mat result = cv::Mat::zeros(bgr.size(), CV_8U);
+  if (cv::countNonZero(body) == 0) return result;
+  const double scale = sensor.color->width / 1920.0;
+  const int band = std::max(2, cvRound(params.band_px * scale)),
+            unknown = std::max(4, cvRound(params.unknown_px * scale));
+  cv::morphologyEx(body, body, cv::MORPH_CLOSE, ellipse(std::max(1, band / 2)));
+
+  const cv::Rect box = grown_box(body, 3 * unknown);
+  known = known(box).clone();
+  body = body(box).clone();
+  const cv::Mat distance_px = signed_distance_px(body);
+  const cv::Mat near = cv::abs(distance_px) < band;
+  const cv::Mat active = near | ((distance_px > 0) & (distance_px < unknown) & (known == 0));
+  const cv::Mat sure_body = distance_px < -band, around = (distance_px > band) & (distance_px < 3 * unknown) & ~active;
+
+  const cv::Mat lab = smoothed_lab(bgr(box));
+  cv::Mat cost = color_cost(lab, learn(lab, sure_body, around), distance_px, band);
+  if (background) add_unchanged(bgr(box), {background->bgr(box), background->body(box)}, around, cost);
+  cv::Mat cut = binary_cut(lab, cost, active, body, {params.smoothness, 0.05});
+  cv::morphologyEx(cut, cut, cv::MORPH_OPEN, ellipse(1));
+  cut.copyTo(result(box));
+  return result;
+}
+
+}  // namespace dressform

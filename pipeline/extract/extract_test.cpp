@@ -1,0 +1,109 @@
+#include "pipeline/extract/extract.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <opencv2/core.hpp>
+
+#include "pipeline/common/analytic_scene.h"
+#include "pipeline/extract/depth_components.h"
+#include "pipeline/extract/floor.h"
+
+namespace dressform {
+namespace {
+
+const analytic::AnalyticScene& scene() {
+  static const auto made = analytic::make_scene();
+  return made;
+}
+
+ExtractedViews run(const std::string& variant, const CaptureSession& session) {
+  return Extract::at(variant).run(session, scene().calibration, scene().naked, {}, 1);
+}
+
+double iou(const cv::Mat& a, const cv::Mat& b) {
+  return cv::countNonZero(a & b) / std::max(1.0, static_cast<double>(cv::countNonZero(a | b)));
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) { return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0; }
+
+TEST(Floor, PlaneBelowATable) {
+  cv::Mat points(60, 60, CV_32FC3);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x)
+      points.at<cv::Vec3f>(y, x) = {x * 0.05f, (y < 30 && x < 45) ? 0.6f : 1.2f + 0.02f * y * 0.05f, y * 0.05f};
+  FloorSearch search;
+  search.least_inliers = 100;
+  const auto floor = find_floor(points, search, 1, 2);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->head<3>().dot(Eigen::Vector3d(0, -1, 0)), 1, 2e-3);
+  EXPECT_NEAR((*floor)[3], 1.2, 0.01);
+}
+
+TEST(Floor, NoneWithoutPoints) {
+  const cv::Mat points(10, 10, CV_32FC3, cv::Scalar::all(std::nanf("")));
+  EXPECT_FALSE(find_floor(points, {}, 1, 2));
+}
+
+TEST(DepthComponents, JumpsPart) {
+  cv::Mat depth(4, 6, CV_32F, cv::Scalar(1000));
+  depth.colRange(3, 6) = 1040;
+  depth.at<float>(0, 0) = 0;
+  const auto found = depth_components(depth, cv::Mat(4, 6, CV_8U, cv::Scalar(255)), 30);
+  ASSERT_EQ(found.sizes, (std::vector<int>{11, 12}));
+  EXPECT_EQ(found.labels.at<int>(0, 0), -1);
+}
+
+TEST(Extract, MaskIsTheMannequin) {
+  for (const auto& variant : Extract::names()) {
+    const auto result = run(variant, scene().session);
+    for (const auto& [sensor, masks] : result.views) {
+      EXPECT_TRUE(masks.found_naked && masks.found_dressed) << variant << sensor;
+      const cv::Mat truth = scene().labels.at(sensor) > 0;
+      EXPECT_GT(iou(masks.dressed_color, truth), 0.95) << variant << " " << sensor;
+    }
+    ASSERT_TRUE(result.floor_in_sensor.count("k1"));
+    EXPECT_NEAR(result.floor_in_sensor.at("k1")[3], 1.25, 0.01);
+  }
+}
+
+TEST(Extract, WithoutPriorAndInEitherOrderOfThreads) {
+  CaptureSession session = scene().session;
+  session.prior.reset();
+  for (const auto& variant : Extract::names()) {
+    ExtractedViews one;
+    {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+      one = run(variant, session);
+    }
+    const auto many = run(variant, session);
+    for (const auto& [sensor, masks] : one.views) {
+      EXPECT_TRUE(same(masks.dressed, many.views.at(sensor).dressed));
+      EXPECT_TRUE(same(masks.dressed_color, many.views.at(sensor).dressed_color));
+      EXPECT_GT(iou(masks.dressed_color, scene().labels.at(sensor) > 0), 0.95) << variant << " " << sensor;
+    }
+  }
+}
+
+TEST(Extract, EmptyDepthIsNotFound) {
+  CaptureSession session = scene().session;
+  session.dressed["k2"].depth_mm = cv::Mat::zeros(session.dressed["k2"].depth_mm.size(), CV_16U);
+  session.naked.erase("k3");
+  for (const auto& variant : Extract::names()) {
+    const auto result = run(variant, session);
+    EXPECT_FALSE(result.views.at("k2").found_dressed);
+    EXPECT_EQ(cv::countNonZero(result.views.at("k2").dressed_color), 0);
+    EXPECT_FALSE(result.views.at("k3").found_naked);
+    EXPECT_TRUE(result.views.at("k3").found_dressed);
+  }
+}
+
+TEST(Extract, UncalibratedViewIsAnInputError) {
+  Calibration calibration = scene().calibration;
+  calibration.sensors.erase("k4");
+  for (const auto& variant : Extract::names())
+    EXPECT_THROW(Extract::at(variant).run(scene().session, calibration, scene().naked, {}, 1), InputError);
+}
+
+}  // namespace
+}  // namespace dressform
