@@ -1,0 +1,173 @@
+#include "scenes/json_file.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <fstream>
+
+#include "scenes/fields.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kRounded = 1e-4, kExact = 1e-12;
+
+std::string shown(const nlohmann::json& value) {
+  const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+}  // namespace
+
+JsonValue JsonValue::at(const std::string& name) const {
+  const std::string full = where_ + (where_.find(": ") == where_.npos ? ": " : ".") + name;
+  if (!value_.is_object()) fail("found " + shown(value_) + "; expected an object");
+  if (!value_.contains(name)) throw InputError(full, "is missing");
+  return {full, value_.at(name)};
+}
+
+std::vector<std::string> JsonValue::names() const {
+  if (!value_.is_object()) fail("found " + shown(value_) + "; expected an object");
+  std::vector<std::string> result;
+  for (const auto& [name, member] : value_.items()) result.push_back(name);
+  return result;
+}
+
+std::vector<JsonValue> JsonValue::elements() const {
+  if (!value_.is_array()) fail("found " + shown(value_) + "; expected an array");
+  std::vector<JsonValue> result;
+  for (std::size_t i = 0; i < value_.size(); ++i)
+    result.emplace_back(where_ + "[" + std::to_string(i) + "]", value_[i]);
+  return result;
+}
+
+std::string JsonValue::text() const {
+  if (!value_.is_string()) fail("found " + shown(value_) + "; expected text");
+  return value_.get<std::string>();
+}
+
+bool JsonValue::flag() const {
+  if (!value_.is_boolean()) fail("found " + shown(value_) + "; expected true or false");
+  return value_.get<bool>();
+}
+
+int JsonValue::whole(int minimum, int maximum) const {
+  if (!value_.is_number_integer() || value_.get<double>() < minimum || value_.get<double>() > maximum)
+    fail("found " + shown(value_) + "; expected a whole number from " + std::to_string(minimum) + " to " +
+         std::to_string(maximum));
+  return value_.get<int>();
+}
+
+double JsonValue::number(double minimum, double maximum) const {
+  if (!value_.is_number()) fail("found " + shown(value_) + "; expected a finite number");
+  const double number = value_.get<double>();
+  if (!(number >= minimum && number <= maximum))
+    fail("found " + shown(value_) + "; expected " + to_text(FieldValue(minimum)) + " to " +
+         to_text(FieldValue(maximum)));
+  return number;
+}
+
+std::vector<double> JsonValue::numbers(int count) const {
+  std::vector<double> result;
+  for (const auto& element : elements()) result.push_back(element.number());
+  if (static_cast<int>(result.size()) != count)
+    fail("found " + std::to_string(result.size()) + " numbers; expected " + std::to_string(count));
+  return result;
+}
+
+Vector3d JsonValue::vector3() const {
+  const auto list = numbers(3);
+  return {list[0], list[1], list[2]};
+}
+
+std::vector<std::string> JsonValue::texts() const {
+  std::vector<std::string> result;
+  for (const auto& element : elements()) result.push_back(element.text());
+  return result;
+}
+
+Isometry3d JsonValue::rigid() const {
+  const auto rows = elements();
+  if (rows.size() != 4) fail("found " + std::to_string(rows.size()) + " rows; expected 4 rows of 4");
+  Eigen::Matrix4d matrix;
+  for (int row = 0; row < 4; ++row) matrix.row(row) = Eigen::RowVector4d::Map(rows[row].numbers(4).data());
+  const Eigen::Matrix3d written = matrix.topLeftCorner<3, 3>();
+  const double off = (written * written.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(off <= kRounded) || written.determinant() < 0 || matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    fail("found a matrix that is no rotation and translation; expected a rigid motion");
+  Isometry3d result = Isometry3d::Identity();
+  result.linear() = written;
+  if (off > kExact) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(written, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    result.linear() = svd.matrixU() * svd.matrixV().transpose();
+  }
+  result.translation() = matrix.topRightCorner<3, 1>();
+  return result;
+}
+
+Camera JsonValue::camera() const {
+  Camera camera;
+  camera.width = at("width").whole(1, 16384);
+  camera.height = at("height").whole(1, 16384);
+  camera.fx = at("fx").number(1, 1e6);
+  camera.fy = at("fy").number(1, 1e6);
+  camera.cx = at("cx").number();
+  camera.cy = at("cy").number();
+  const auto distortion = at("distortion").numbers(5);
+  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+  return camera;
+}
+
+JsonValue read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) throw InputError(file.string(), "is missing; expected a file");
+  try {
+    return {file.string(), nlohmann::json::parse(stream)};
+  } catch (const nlohmann::json::exception& error) {
+    const std::string text = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    throw InputError(file.string(), "is not JSON with finite numbers: " + text.substr(text.find(']') + 2));
+  }
+}
+
+JsonValue read_json(const std::filesystem::path& file, const std::string& format, int version) {
+  JsonValue value = read_json(file);
+  const auto found = value.at("format");
+  if (found.text() != format) found.fail("found \"" + found.text() + "\"; expected \"" + format + "\"");
+  const auto number = value.at("version");
+  if (number.number() != version)
+    number.fail("found " + to_text(FieldValue(number.number())) + "; expected " + std::to_string(version));
+  return value;
+}
+
+void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& value) {
+  const std::filesystem::path temporary = file.string() + ".part";
+  {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << value.dump(1) << '\n';
+    if (!stream.flush()) throw InputError(file.string(), "cannot be written; expected a writable folder");
+  }
+  std::filesystem::rename(temporary, file);
+}
+
+nlohmann::ordered_json to_json(const Isometry3d& matrix) {
+  auto rows = nlohmann::ordered_json::array();
+  for (int row = 0; row < 4; ++row) {
+    const Eigen::RowVector4d numbers = matrix.matrix().row(row);
+    rows.push_back({numbers[0], numbers[1], numbers[2], numbers[3]});
+  }
+  return rows;
+}
+
+nlohmann::ordered_json to_json(const Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+nlohmann::ordered_json to_json(const Camera& camera) {
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"distortion", camera.distortion}};
+}
+
+}  // namespace dressform
