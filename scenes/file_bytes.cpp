@@ -1,0 +1,41 @@
+#include "scenes/file_bytes.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+
+#include "scenes/error.h"
+
+namespace dressform {
+
+std::string read_file_bytes(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(path.string(), "found no such file; expected a file");
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path.string(), "found a folder or device; expected a file");
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(std::filesystem::file_size(path, error), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (error || !file || file.gcount() != static_cast<std::streamsize>(bytes.size()))
+    throw InputError(path.string(), "cannot be read; expected a readable file");
+  return bytes;
+}
+
+void write_file_atomically(const std::filesystem::path& path, const std::string& bytes) {
+  static std::atomic<unsigned> serial{0};  // two threads may write beside one another
+  std::filesystem::path temporary = path;
+  temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
+  std::error_code error;
+  {
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (file) std::filesystem::rename(temporary, path, error);
+    if (file && !error) return;
+  }
+  std::filesystem::remove(temporary, error);
+  throw InputError(path.string(), "cannot be written; expected a folder that exists and has room");
+}
+
+}  // namespace dressform

@@ -1,0 +1,14 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace dressform {
+
+// The whole file. Throws InputError naming it when it is missing, no regular file, or cannot be read.
+std::string read_file_bytes(const std::filesystem::path& path);
+
+// Writes to a temporary name in the same folder, then renames: `path` holds the old bytes or the new ones, never half.
+// Throws InputError naming the file when it cannot be written.
+void write_file_atomically(const std::filesystem::path& path, const std::string& bytes);
+
+}  // namespace dressform
