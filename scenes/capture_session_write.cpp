@@ -126,7 +126,8 @@ std::string session_content_hash(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder.string(), "is missing; expected the folder of a session");
   std::vector<std::string> names;
   for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-    if (entry.depth() == 0 && entry->path().filename() == "truth")
+    const std::string name = entry->path().filename().string();
+    if (entry.depth() == 0 && (name == "truth" || name[0] == '.'))  // '.': left by a writer that was killed
       entry.disable_recursion_pending();
     else if (entry->is_regular_file())
       names.push_back(entry->path().lexically_relative(folder).generic_string());

@@ -1,0 +1,172 @@
+#include "scenes/ground_truth.h"
+
+#include <tbb/parallel_invoke.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+#include <opencv2/core.hpp>
+
+#include "scenes/calibration_json.h"
+#include "scenes/error.h"
+#include "scenes/image_file.h"
+#include "scenes/json_file.h"
+#include "scenes/mesh_io.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+const std::vector<std::string> kSlots{"top", "bottom"};
+const std::vector<std::string> kScans{"scan_naked", "scan_user"};
+constexpr int kLabels = 4;  // 0 none, 1 skin, 2 top, 3 bottom
+
+void read_poses(const fs::path& folder, GroundTruth& truth) {
+  const JsonValue file = read_json(folder / "world_from_sensor.json");
+  const JsonValue sensors = file.at("sensors");
+  for (const auto& name : sensors.names()) truth.world_from_sensor[name] = sensors.at(name).rigid();
+  for (const auto& scan : kScans) {
+    if (!file.has(scan)) continue;
+    for (const auto& pose : file.at(scan).elements()) truth.scan_world_from_sensor[scan].push_back(pose.rigid());
+  }
+}
+
+void write_poses(const fs::path& folder, const GroundTruth& truth) {
+  ordered_json file{{"sensors", ordered_json::object()}};
+  for (const auto& [name, pose] : truth.world_from_sensor) file["sensors"][name] = to_json(pose);
+  for (const auto& [scan, poses] : truth.scan_world_from_sensor) {
+    file[scan] = ordered_json::array();
+    for (const auto& pose : poses) file[scan].push_back(to_json(pose));
+  }
+  write_json(folder / "world_from_sensor.json", file);
+}
+
+TruthRim read_rim(const JsonValue& value) {
+  TruthRim rim;
+  rim.name = value.at("name").text();
+  rim.visible = value.at("visible").number(0, 1);
+  for (const auto& point : value.at("points").elements()) rim.points.push_back(point.vector3());
+  if (rim.points.size() < 3)
+    value.at("points").fail("found " + std::to_string(rim.points.size()) + " points; expected a closed line");
+  return rim;
+}
+
+void read_rims(const fs::path& folder, GroundTruth& truth) {
+  const JsonValue file = read_json(folder / "rims.json");
+  for (const auto& [slot, garment] : truth.garments)
+    for (const auto& rim : file.at(slot).elements()) truth.rims[slot].push_back(read_rim(rim));
+}
+
+void write_rims(const fs::path& folder, const GroundTruth& truth) {
+  auto file = ordered_json::object();
+  for (const auto& [slot, rims] : truth.rims) {
+    file[slot] = ordered_json::array();
+    for (const auto& rim : rims) {
+      auto points = ordered_json::array();
+      for (const auto& point : rim.points) points.push_back(to_json(point));
+      file[slot].push_back({{"name", rim.name}, {"visible", rim.visible}, {"points", points}});
+    }
+  }
+  write_json(folder / "rims.json", file);
+}
+
+TruthGarment read_garment(const fs::path& ply, const fs::path& glb) {
+  TruthGarment garment;
+  tbb::parallel_invoke([&] { garment.mesh = read_mesh(ply); }, [&] { garment.textured = read_textured_mesh(glb); });
+  garment.views = read_ply_vertex_property(ply, "views");
+  if (garment.views.size() != garment.mesh.vertices.size())
+    throw InputError(ply.string() + ": views", "found " + std::to_string(garment.views.size()) + " values; expected " +
+                                                   std::to_string(garment.mesh.vertices.size()));
+  return garment;
+}
+
+void read_garments(const fs::path& folder, GroundTruth& truth) {
+  for (const auto& slot : kSlots) {
+    const fs::path ply = folder / (slot + ".ply");
+    if (fs::exists(ply)) truth.garments[slot] = read_garment(ply, folder / (slot + ".glb"));
+  }
+  if (truth.garments.empty()) throw InputError(folder.string(), "found no top.ply or bottom.ply; expected a garment");
+}
+
+void write_garments(const fs::path& folder, const GroundTruth& truth) {
+  fs::create_directories(folder);
+  for (const auto& [slot, garment] : truth.garments) {
+    PlyExtras extras;
+    extras.vertex_properties["views"] = garment.views;
+    write_ply(folder / (slot + ".ply"), garment.mesh, extras);
+    write_glb(folder / (slot + ".glb"), garment.textured);
+  }
+}
+
+void read_labels(const fs::path& folder, GroundTruth& truth) {
+  for (const auto& [sensor, pose] : truth.world_from_sensor) {
+    const fs::path file = folder / (sensor + ".png");
+    if (!fs::exists(file)) continue;  // a sensor without a colour camera, or without a dressed shot
+    truth.labels[sensor] = read_image(file, kIndexImage);
+    double maximum = 0;
+    cv::minMaxIdx(truth.labels[sensor], nullptr, &maximum);
+    if (maximum >= kLabels)
+      throw InputError(file.string(), "found label " + std::to_string(int(maximum)) + "; expected 0 to 3");
+  }
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string(), "is missing; expected the scene's text");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_all(const fs::path& folder, const GroundTruth& truth) {
+  write_poses(folder, truth);
+  if (truth.calibration) write_calibration(folder / "calibration.json", *truth.calibration);
+  tbb::parallel_invoke([&] { write_ply(folder / "naked_body.ply", truth.naked_body); },
+                       [&] { write_ply(folder / "user_body.ply", truth.user_body); },
+                       [&] { write_garments(folder / "garments", truth); },
+                       [&] {
+                         fs::create_directories(folder / "labels");
+                         for (const auto& [sensor, image] : truth.labels)
+                           write_png(folder / "labels" / (sensor + ".png"), image);
+                       });
+  write_rims(folder, truth);
+  std::ofstream scene(folder / "scene.toml", std::ios::binary);
+  scene << truth.scene_toml;
+  if (!scene.flush()) throw InputError((folder / "scene.toml").string(), "cannot be written");
+}
+
+}  // namespace
+
+bool ground_truth_exists(const fs::path& session_folder) { return fs::is_directory(session_folder / "truth"); }
+
+GroundTruth read_ground_truth(const fs::path& session_folder) {
+  const fs::path folder = session_folder / "truth";
+  if (!fs::is_directory(folder)) throw InputError(folder.string(), "is missing; only synthetic sessions have truth");
+  GroundTruth truth;
+  read_poses(folder, truth);
+  if (fs::exists(folder / "calibration.json")) truth.calibration = read_calibration(folder / "calibration.json");
+  tbb::parallel_invoke([&] { truth.naked_body = read_mesh(folder / "naked_body.ply"); },
+                       [&] { truth.user_body = read_mesh(folder / "user_body.ply"); },
+                       [&] { read_garments(folder / "garments", truth); });
+  read_rims(folder, truth);
+  read_labels(folder / "labels", truth);
+  truth.scene_toml = read_text(folder / "scene.toml");
+  return truth;
+}
+
+void write_ground_truth(const fs::path& session_folder, const GroundTruth& truth) {
+  const fs::path folder = session_folder / "truth";
+  if (fs::exists(folder)) throw InputError(folder.string(), "is there already; expected a session without truth");
+  const fs::path temporary = session_folder / (".truth_" + std::to_string(getpid()) + ".part");
+  fs::remove_all(temporary);
+  fs::create_directories(temporary);
+  try {
+    write_all(temporary, truth);
+    fs::rename(temporary, folder);
+  } catch (...) {
+    fs::remove_all(temporary);
+    throw;
+  }
+}
+
+}  // namespace dressform
