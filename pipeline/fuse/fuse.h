@@ -10,13 +10,13 @@ namespace dressform {
 
 // A body scanned all round by one moving depth sensor.
 struct BodyModel {
-  Mesh body;      // closed, the body alone (no floor, no stand), model frame
+  Mesh body;                // closed, the body alone (no floor, no stand), model frame
   PointCloud surroundings;  // everything the scan saw that is static (body, stand, floor, furniture), with normals,
                             // model frame, thinned to about 1 cm: registration may lean on the floor
   std::vector<Isometry3d> model_from_frame;  // IR camera pose of every scan frame
   bool converged = false;
-  double loop_closure_m = 0;      // drift between the last and the first frame before it was spread
-  double residual_rms_m = 0;      // point to plane, last pass
+  double loop_closure_m = 0;  // drift between the last and the first frame before it was spread
+  double residual_rms_m = 0;  // point to plane, last pass
   int frames_used = 0;
 
   template <class Archive>

@@ -1,0 +1,223 @@
+#include "pipeline/fuse/track.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace dressform {
+namespace {
+
+constexpr double kLeastInlierPart = 0.35;
+constexpr int kAlignmentIterations = 6;
+constexpr double kSuspiciousCost = 1.5;  // of a frame's alignment, relative to the median before
+
+std::vector<PairGate> coarse_to_fine() { return {{0.2, 0.5, 4}, {0.08, 0.7, 3}, {0.04, 0.8, 2}, {0.02, 0.85, 1}}; }
+
+Vector3d viewing_direction(const Isometry3d& world_from_frame) { return world_from_frame.linear().col(2); }
+
+double viewing_angle(const Track& track, int a, int b) {
+  const double cosine = viewing_direction(track.world_from_frame[a]).dot(viewing_direction(track.world_from_frame[b]));
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+// The frames a new frame is aligned with: the last tracked ones at doubling distances.
+std::vector<int> recent_frames(const std::vector<int>& tracked) {
+  std::vector<int> result;
+  for (const std::size_t back : {1, 2, 4, 7})
+    if (back <= tracked.size()) result.push_back(tracked[tracked.size() - back]);
+  return result;
+}
+
+// Where the object in front of a sensor stands: the median depth of the middle of the picture, along the axis.
+double object_distance(const DepthMap& map) {
+  std::vector<float> depths;
+  for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
+    for (int x = map.camera.width * 2 / 5; x < map.camera.width * 3 / 5; ++x) {
+      const float z = map.points[static_cast<std::size_t>(y) * map.camera.width + x].z();
+      if (z > 0) depths.push_back(z);
+    }
+  if (depths.empty()) return 2.0;
+  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
+  return depths[depths.size() / 2];
+}
+
+// The sensor moved on a circle round the object in front of it, about its own vertical.
+Isometry3d orbited(const Isometry3d& world_from_frame, double distance_m, double angle_rad) {
+  const Eigen::Translation3d to_object(0, 0, distance_m);
+  return world_from_frame * to_object * Eigen::AngleAxisd(angle_rad, Vector3d::UnitY()) * to_object.inverse();
+}
+
+// Where a frame may be: moved on as its predecessors moved, averaged over the last few, and where the last one was.
+std::vector<Isometry3d> predictions(const Track& track, const std::vector<int>& tracked, int frame) {
+  const Isometry3d& last = track.world_from_frame[tracked.back()];
+  std::vector<Isometry3d> starts{last};
+  constexpr std::size_t kSteps = 4;
+  if (tracked.size() <= kSteps) return starts;
+  const int before = tracked[tracked.size() - 1 - kSteps];
+  const Isometry3d motion = track.world_from_frame[before].inverse() * last;
+  const double part = static_cast<double>(frame - tracked.back()) / (tracked.back() - before);
+  const Eigen::AngleAxisd turn(motion.linear());
+  Isometry3d step = Isometry3d::Identity();
+  step.linear() = Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
+  step.translation() = part * motion.translation();
+  starts.push_back(last * step);
+  return starts;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+bool good(const FrameAlignment& alignment) { return alignment.converged && alignment.inlier_part > kLeastInlierPart; }
+
+// The best of several starts by its robust cost.
+FrameAlignment best_alignment(const ScanFrames& frames, const Projector& projector, int frame,
+                              const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
+                              const std::vector<Isometry3d>& starts, const std::vector<PairGate>& gates) {
+  std::vector<FrameAlignment> results(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
+    results[k] =
+        align_to_frames(frames, projector, frame, targets, world_from_frame, starts[k], gates, kAlignmentIterations);
+  });
+  FrameAlignment best;
+  for (const auto& each : results)
+    if (good(each) && (!best.converged || each.cost < best.cost)) best = each;
+  return best;
+}
+
+std::vector<Isometry3d> orbit_starts(const Isometry3d& pose, double distance_m, double step_deg, int steps) {
+  std::vector<Isometry3d> starts;
+  for (int k = -steps; k <= steps; ++k) starts.push_back(orbited(pose, distance_m, k * step_deg * M_PI / 180));
+  return starts;
+}
+
+// A pair of frames far apart in time that look the same way, nearest in direction; {-1, -1} without one.
+std::pair<int, int> loop_candidate(const Track& track) {
+  constexpr double kLargestAngle = 12 * M_PI / 180;
+  const int count = static_cast<int>(track.world_from_frame.size());
+  std::pair<int, int> best{-1, -1};
+  double best_angle = kLargestAngle;
+  for (int late = count - 1; late >= 0; --late) {
+    if (!track.tracked[late]) continue;
+    for (int early = 0; early < late - count / 2; ++early) {
+      if (!track.tracked[early]) continue;
+      const double angle = viewing_angle(track, early, late);
+      if (angle < best_angle) best_angle = angle, best = {early, late};
+    }
+  }
+  return best;
+}
+
+// `part` of a rigid motion given in the world frame.
+Isometry3d fraction(const Isometry3d& motion, const Vector3d& centre, double part) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  const Vector3d step = motion * centre - centre;
+  Isometry3d result = Isometry3d::Identity();
+  result.linear() = Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
+  result.translation() = centre + part * step - result.linear() * centre;
+  return result;
+}
+
+}  // namespace
+
+int Track::count_tracked() const { return static_cast<int>(std::count(tracked.begin(), tracked.end(), 1)); }
+
+Track track_odometry(const ScanFrames& frames, const Projector& projector) {
+  Track track;
+  track.world_from_frame.assign(frames.count(), Isometry3d::Identity());
+  track.tracked.assign(frames.count(), 0);
+  std::vector<int> tracked;
+  std::vector<double> costs;
+  double squares = 0;
+  for (int i = 0; i < frames.count(); ++i) {
+    if (!frames.usable[i]) continue;
+    if (tracked.empty()) {
+      track.tracked[i] = 1;
+      tracked.push_back(i);
+      continue;
+    }
+    const auto targets = recent_frames(tracked);
+    auto starts = predictions(track, tracked, i);
+    FrameAlignment found =
+        best_alignment(frames, projector, i, targets, track.world_from_frame, starts, coarse_to_fine());
+    if (!good(found) || found.cost > kSuspiciousCost * median(costs)) {
+      const auto more = orbit_starts(starts.back(), object_distance(frames.maps[i]), 3, 4);
+      starts.insert(starts.end(), more.begin(), more.end());
+      found = best_alignment(frames, projector, i, targets, track.world_from_frame, starts, coarse_to_fine());
+    }
+    if (!good(found)) continue;
+    track.world_from_frame[i] = found.world_from_frame;
+    track.tracked[i] = 1;
+    tracked.push_back(i);
+    costs.push_back(found.cost);
+    squares += found.residual_rms_m * found.residual_rms_m;
+  }
+  track.residual_rms_m = tracked.size() > 1 ? std::sqrt(squares / (tracked.size() - 1)) : 0;
+  return track;
+}
+
+Track close_loop(const ScanFrames& frames, const Projector& projector, Track track) {
+  const auto [early, late] = loop_candidate(track);
+  if (early < 0) return track;
+  std::vector<int> targets;
+  for (int i = std::max(0, early - 3); i <= std::min(frames.count() - 1, early + 3); ++i)
+    if (track.tracked[i]) targets.push_back(i);
+  const Isometry3d& open = track.world_from_frame[late];
+  const auto starts = orbit_starts(open, object_distance(frames.maps[late]), 3, 4);
+  std::vector<PairGate> gates = coarse_to_fine();
+  gates.insert(gates.begin(), PairGate{0.3, 0.5, 4});
+  const FrameAlignment found = best_alignment(frames, projector, late, targets, track.world_from_frame, starts, gates);
+  if (!good(found)) return track;
+  track.loop_found = true;
+  const Isometry3d correction = found.world_from_frame * open.inverse();
+  track.loop_closure_m = (found.world_from_frame.translation() - open.translation()).norm();
+  const Vector3d centre = axes_crossing(track);
+  for (int i = early + 1; i < frames.count(); ++i) {
+    const double part = std::min(1.0, static_cast<double>(i - early) / (late - early));
+    track.world_from_frame[i] = fraction(correction, centre, part) * track.world_from_frame[i];
+  }
+  return track;
+}
+
+std::vector<std::pair<int, int>> overlapping_pairs(const Track& track, int per_frame, double largest_angle_deg) {
+  const int count = static_cast<int>(track.world_from_frame.size());
+  std::set<std::pair<int, int>> pairs;
+  for (int i = 0; i < count; ++i) {
+    if (!track.tracked[i]) continue;
+    std::vector<std::pair<double, int>> near;
+    for (int j = 0; j < count; ++j) {
+      if (j == i || !track.tracked[j]) continue;
+      const double angle = viewing_angle(track, i, j);
+      if (angle < largest_angle_deg * M_PI / 180) near.emplace_back(angle, j);
+    }
+    std::sort(near.begin(), near.end());
+    const int kept = std::min(per_frame, static_cast<int>(near.size()));
+    for (int k = 0; k < kept; ++k) {
+      const int j = near[static_cast<std::size_t>(k) * near.size() / kept].second;
+      pairs.emplace(std::min(i, j), std::max(i, j));
+    }
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
+Vector3d axes_crossing(const Track& track) {
+  Eigen::Matrix3d matrix = 1e-3 * Eigen::Matrix3d::Identity();
+  Vector3d vector = Vector3d::Zero();
+  for (std::size_t i = 0; i < track.world_from_frame.size(); ++i) {
+    if (!track.tracked[i]) continue;
+    const Vector3d axis = viewing_direction(track.world_from_frame[i]);
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    // Half a part in a thousand towards two metres in front keeps the answer near when the axes hardly cross.
+    const Vector3d ahead = track.world_from_frame[i] * Vector3d(0, 0, 2);
+    matrix += across + 5e-4 * Eigen::Matrix3d::Identity();
+    vector += across * track.world_from_frame[i].translation() + 5e-4 * ahead;
+  }
+  return matrix.ldlt().solve(vector);
+}
+
+}  // namespace dressform
