@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipeline/extract/depth_components.h"
-#include "pipeline/extract/floor.h"
+#include "pipeline/common/floor.h"
 
 namespace dressform {
 namespace {

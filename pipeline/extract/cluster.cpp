@@ -9,7 +9,7 @@
 #include "pipeline/extract/body_region.h"
 #include "pipeline/extract/color_outline.h"
 #include "pipeline/extract/extract.h"
-#include "pipeline/extract/floor.h"
+#include "pipeline/common/floor.h"
 #include "scenes/random.h"
 
 namespace dressform {

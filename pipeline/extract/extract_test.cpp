@@ -7,7 +7,7 @@
 
 #include "pipeline/common/analytic_scene.h"
 #include "pipeline/extract/depth_components.h"
-#include "pipeline/extract/floor.h"
+#include "pipeline/common/floor.h"
 
 namespace dressform {
 namespace {

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <vector>
 
 #include "scenes/registry.h"
 
@@ -16,8 +17,13 @@ struct FloorSearch {
 };
 
 // The floor: the lowest plane that many points lie on and hardly any lies below. RANSAC over triples of points
-// (float32 x 3, metres, NaN = none), then least squares on the inliers. (n, d): n.p + d = 0 with unit n pointing up.
+// (metres), then least squares on the inliers. (n, d): n.p + d = 0 with unit n pointing up.
 // Empty when no plane qualifies. Fischler and Bolles, CACM 1981.
+std::optional<Eigen::Vector4d> find_floor(const std::vector<Eigen::Vector3d>& points_m, const FloorSearch& search,
+                                          Seed seed, std::uint64_t stream);
+
+// The same for the points of one depth image (float32 x 3, metres, NaN = none): a quarter of its lower pixels is
+// looked at, and so a quarter of `least_inliers` is asked for.
 std::optional<Eigen::Vector4d> find_floor(const cv::Mat& points_m, const FloorSearch& search, Seed seed,
                                           std::uint64_t stream);
 

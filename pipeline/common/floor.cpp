@@ -1,4 +1,4 @@
-#include "pipeline/extract/floor.h"
+#include "pipeline/common/floor.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -71,10 +71,16 @@ Vector4d fit_plane(const std::vector<Vector3d>& points) {
 
 std::optional<Vector4d> find_floor(const cv::Mat& points_m, const FloorSearch& search, Seed seed,
                                    std::uint64_t stream) {
-  const auto points = candidates(points_m);
+  FloorSearch quarter = search;
+  quarter.least_inliers /= 4;
+  return find_floor(candidates(points_m), quarter, seed, stream);
+}
+
+std::optional<Vector4d> find_floor(const std::vector<Vector3d>& points, const FloorSearch& search, Seed seed,
+                                   std::uint64_t stream) {
   if (points.size() < 3) return {};
   std::optional<Vector4d> best;
-  int best_support = search.least_inliers / 4;  // a quarter of the pixels are looked at
+  int best_support = search.least_inliers;
   for (int draw = 0; draw < search.draws; ++draw) {
     const auto random = uniform4(seed, stream, static_cast<std::uint64_t>(draw));
     const auto pick = [&](int k) -> const Vector3d& {
