@@ -10,7 +10,8 @@ namespace dressform {
 
 // Landmark heights of a body standing on y = 0, metres.
 struct BodyLandmarks {
-  double stature = 0, neck = 0, shoulder = 0, armpit = 0, chest = 0, waist = 0, hip = 0, crotch = 0, knee = 0, ankle = 0;
+  double stature = 0, neck = 0, shoulder = 0, armpit = 0, chest = 0, waist = 0, hip = 0, crotch = 0, knee = 0,
+         ankle = 0;
 };
 
 struct Body {

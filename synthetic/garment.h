@@ -9,8 +9,8 @@
 namespace dressform {
 
 struct Garment {
-  TexturedMesh textured;        // one-sided open surface, outward, world frame
-  std::vector<TruthRim> rims;   // `visible` is filled in by the capture
+  TexturedMesh textured;       // one-sided open surface, outward, world frame
+  std::vector<TruthRim> rims;  // `visible` is filled in by the capture
 };
 
 // The procedural garment on the body, or the scene's own mesh placed as given. `inner` are garments worn beneath it
