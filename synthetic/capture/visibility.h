@@ -1,0 +1,18 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "scenes/ground_truth.h"
+#include "scenes/scene.h"
+#include "synthetic/capture/ray_scene.h"
+
+namespace dressform {
+
+// Per vertex of an open surface in the scene: how many IR cameras of the rig see its outer side: inside the image,
+// facing, nothing in between.
+std::vector<std::uint8_t> count_views(const RayScene& scene, const Mesh& mesh, const std::vector<SensorSpec>& rig);
+
+// Part of a closed line's length that at least one IR camera sees, from either side of the cloth.
+double visible_part(const RayScene& scene, const std::vector<Vector3d>& points, const std::vector<SensorSpec>& rig);
+
+}  // namespace dressform
