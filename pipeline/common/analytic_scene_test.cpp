@@ -170,45 +170,60 @@ Shot capture(const World& world, const SceneOptions& options, const SensorCalibr
   return shot;
 }
 
-// Rings round the axis and half spheres at the ends.
-void add_capsule(const Capsule& c, Mesh& mesh) {
-  constexpr int kAround = 48, kCap = 10, kAlong = 60;
-  const Vector3d axis = (c.b - c.a).normalized();
-  const Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
-  std::vector<std::pair<Vector3d, double>> rings;  // centre and radius
-  for (int k = 1; k <= kCap; ++k) {
-    const double angle = M_PI / 2 * k / kCap;
-    rings.emplace_back(c.a - axis * c.radius_a * std::cos(angle), c.radius_a * std::sin(angle));
-  }
-  for (int k = 1; k <= kAlong; ++k) {
-    const double t = static_cast<double>(k) / kAlong;
-    rings.emplace_back(c.a + t * (c.b - c.a), c.radius_a + t * (c.radius_b - c.radius_a));
-  }
-  for (int k = 1; k < kCap; ++k) {
-    const double angle = M_PI / 2 * k / kCap;
-    rings.emplace_back(c.b + axis * c.radius_b * std::sin(angle), c.radius_b * std::cos(angle));
-  }
-  const int first = static_cast<int>(mesh.vertices.size());
-  for (const auto& [center, radius] : rings)
-    for (int k = 0; k < kAround; ++k)
-      mesh.vertices.push_back(center +
-                              radius * (std::cos(2 * M_PI * k / kAround) * u + std::sin(2 * M_PI * k / kAround) * v));
-  const int count = static_cast<int>(rings.size());
-  for (int r = 0; r + 1 < count; ++r) {
-    for (int k = 0; k < kAround; ++k) {
-      const int p = first + r * kAround + k, q = first + r * kAround + (k + 1) % kAround;
-      mesh.triangles.emplace_back(p, q, p + kAround);
-      mesh.triangles.emplace_back(q, q + kAround, p + kAround);
+// The zero level of the body's distance by marching tetrahedra on a grid of cubes of `step` metres.
+Mesh body_mesh(const std::vector<Capsule>& parts, double step) {
+  const Vector3d low(-0.45, -0.05, -0.25);
+  const Vector3i size(static_cast<int>(0.9 / step), static_cast<int>(1.95 / step), static_cast<int>(0.55 / step));
+  const auto place = [&](int i) {
+    return Vector3d(low + step * Vector3d(i % size.x(), i / size.x() % size.y(), i / size.x() / size.y()));
+  };
+  std::vector<double> value(static_cast<std::size_t>(size.prod()));
+  tbb::parallel_for(0, size.prod(), [&](int i) {
+    double d = 1e9;
+    for (const Capsule& part : parts) d = std::min(d, distance(part, place(i)));
+    value[i] = std::abs(d) < 1e-9 ? 1e-9 : d;
+  });
+  Mesh mesh;
+  std::map<std::pair<int, int>, int> crossings;
+  const auto crossing = [&](int inside, int outside) {
+    const auto [found, fresh] = crossings.emplace(std::minmax(inside, outside), static_cast<int>(mesh.vertices.size()));
+    const double t = value[inside] / (value[inside] - value[outside]);
+    if (fresh) mesh.vertices.push_back(place(inside) + t * (place(outside) - place(inside)));
+    return found->second;
+  };
+  const auto add = [&](int a, int b, int c, const Vector3d& inside) {
+    const Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    if ((q - p).cross(r - p).dot(p - inside) < 0) std::swap(b, c);
+    mesh.triangles.emplace_back(a, b, c);
+  };
+  const auto tetrahedron = [&](const std::array<int, 4>& corners) {
+    std::vector<int> in, out;
+    for (const int i : corners) (value[i] < 0 ? in : out).push_back(i);
+    if (in.size() == 1 || in.size() == 3) {
+      const bool lone_in = in.size() == 1;
+      const int lone = lone_in ? in[0] : out[0];
+      std::array<int, 3> v{};
+      for (int k = 0; k < 3; ++k) v[k] = lone_in ? crossing(lone, out[k]) : crossing(in[k], lone);
+      add(v[0], v[1], v[2], place(in[0]));
+    } else if (in.size() == 2) {
+      const int a = crossing(in[0], out[0]), b = crossing(in[0], out[1]), c = crossing(in[1], out[1]),
+                d = crossing(in[1], out[0]);
+      add(a, b, c, place(in[0]));
+      add(a, c, d, place(in[0]));
+    }
+  };
+  const std::array<std::array<int, 2>, 6> paths{{{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
+  for (int z = 0; z + 1 < size.z(); ++z) {
+    for (int y = 0; y + 1 < size.y(); ++y) {
+      for (int x = 0; x + 1 < size.x(); ++x) {
+        const auto corner = [&](int k) {
+          return ((z + (k >> 2)) * size.y() + y + (k >> 1 & 1)) * size.x() + x + (k & 1);
+        };
+        for (const auto& path : paths) tetrahedron({corner(0), corner(path[0]), corner(path[1]), corner(7)});
+      }
     }
   }
-  const int low = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.push_back(c.a - axis * c.radius_a);
-  mesh.vertices.push_back(c.b + axis * c.radius_b);
-  for (int k = 0; k < kAround; ++k) {
-    mesh.triangles.emplace_back(low, first + (k + 1) % kAround, first + k);
-    mesh.triangles.emplace_back(low + 1, first + (count - 1) * kAround + k,
-                                first + (count - 1) * kAround + (k + 1) % kAround);
-  }
+  return mesh;
 }
 
 SensorCalibration scaled_kinect(double scale) {
@@ -260,7 +275,7 @@ AnalyticScene make_scene(const SceneOptions& options) {
     scene.registration.converged[name] = true;
   }
   scene.session.calibration = scene.calibration;
-  for (const Capsule& part : body_parts()) add_capsule(part, scene.naked.body);
+  scene.naked.body = body_mesh(body_parts(), 0.01);
   scene.naked.converged = true;
   return scene;
 }
@@ -276,6 +291,10 @@ TEST(AnalyticScene, IsWhatItSays) {
   EXPECT_EQ(scene.session.sensors.size(), 4u);
   for (const auto& [name, labels] : scene.labels)
     for (const int label : {1, 2, 3}) EXPECT_GT(cv::countNonZero(labels == label), 500) << name << label;
+  const Topology body = topology(scene.naked.body);
+  EXPECT_TRUE(body.closed());
+  EXPECT_EQ(body.euler(), 2);
+  EXPECT_EQ(body.components, 1);
   const Shot& shot = scene.session.naked.at("k1");
   EXPECT_NEAR(shot.depth_mm.at<ushort>(52, 64), 1950, 40);  // the chest, a torso's radius before the axis
 }

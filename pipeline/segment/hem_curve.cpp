@@ -1,0 +1,58 @@
+#include "pipeline/segment/hem_curve.h"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+namespace dressform {
+namespace {
+
+// cost[h]: what a column pays when rows >= h are top.
+std::vector<double> column_costs(const cv::Mat& nats, int column) {
+  std::vector<double> cost(static_cast<std::size_t>(nats.rows) + 1, 0);
+  double above = 0;
+  for (int row = 0; row < nats.rows; ++row) above += nats.at<float>(row, column);
+  double below = 0;
+  for (int h = 0; h <= nats.rows; ++h) {
+    cost[h] = below - above;
+    if (h == nats.rows) break;
+    below += nats.at<float>(h, column);
+    above -= nats.at<float>(h, column);
+  }
+  return cost;
+}
+
+// best[h] = min over g of cost[g] + price |h - g|; from[h] = that g (Felzenszwalb and Huttenlocher, 2012).
+void spread(std::vector<double>& cost, std::vector<int>& from, double price) {
+  const int count = static_cast<int>(cost.size());
+  for (int h = 0; h < count; ++h) from[h] = h;
+  const auto relax = [&](int h, int neighbour) {
+    if (cost[neighbour] + price >= cost[h]) return;
+    cost[h] = cost[neighbour] + price;
+    from[h] = from[neighbour];
+  };
+  for (int h = 1; h < count; ++h) relax(h, h - 1);
+  for (int h = count - 2; h >= 0; --h) relax(h, h + 1);
+}
+
+}  // namespace
+
+std::vector<int> trace_hem(const cv::Mat& nats, double row_price) {
+  const int columns = nats.cols, rounds = 3;
+  std::vector<double> best(static_cast<std::size_t>(nats.rows) + 1, 0);
+  std::vector<std::vector<int>> from;
+  for (int k = 0; k < rounds * columns; ++k) {
+    from.emplace_back(best.size());
+    spread(best, from.back(), row_price);
+    const auto own = column_costs(nats, k % columns);
+    for (std::size_t h = 0; h < best.size(); ++h) best[h] += own[h];
+  }
+  int at = static_cast<int>(std::min_element(best.begin(), best.end()) - best.begin());
+  std::vector<int> hem(static_cast<std::size_t>(columns), 0);
+  for (int k = rounds * columns - 1; k >= columns; --k) {
+    if (k < 2 * columns) hem[k - columns] = at;  // the middle round feels neighbours on both sides
+    at = from[k][at];
+  }
+  return hem;
+}
+
+}  // namespace dressform

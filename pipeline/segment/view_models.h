@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "pipeline/common/color_histogram.h"
+#include "pipeline/segment/view_evidence.h"
+
+namespace dressform {
+
+// One colour model a view, learnt from images[k] where masks[k] != 0 (empty = nothing), with a share of what the other
+// views learnt: exposure and print differ between views, but a view that saw little leans on the others.
+std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images);
+
+// The views' smoothed_lab images.
+std::vector<cv::Mat> lab_images(const std::vector<ViewEvidence>& views);
+
+// `mask` less what is within `times` pixels of its edge.
+cv::Mat eroded(const cv::Mat& mask, int times);
+
+// Turns over pieces of either value inside `body` that cover less than speck_mm2. px_mm: size of a pixel on the body.
+void remove_specks(cv::Mat& mask, const cv::Mat& body, double speck_mm2, double px_mm);
+
+// Size of a pixel on the mannequin where it faces the camera, mm; 2 when no place is known.
+double pixel_size_mm(const ViewEvidence& view);
+
+}  // namespace dressform
