@@ -1,0 +1,192 @@
+#include "pipeline/texture/color_view.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "pipeline/texture/raster.h"
+
+namespace dressform {
+namespace {
+
+constexpr float kFar = 1e6f;
+
+// Every triangle's z in the camera, nearest first, over the crop.
+cv::Mat depth_of(const ColorView& view, const cv::Rect& crop, const std::vector<const Mesh*>& scenery) {
+  cv::Mat depth(crop.size(), CV_32FC1, cv::Scalar(kFar));
+  for (const Mesh* mesh : scenery) {
+    std::vector<Vector2d> pixels(mesh->vertices.size(), Vector2d::Constant(std::nan("")));
+    std::vector<double> z(mesh->vertices.size());
+    tbb::parallel_for(std::size_t{0}, pixels.size(),
+                      [&](std::size_t i) { view.project(mesh->vertices[i], pixels[i], z[i]); });
+    for (const Vector3i& t : mesh->triangles)
+      for_each_pixel(
+          {pixels[t[0]], pixels[t[1]], pixels[t[2]]}, {{0, 0}, crop.size()}, [&](int x, int y, const Vector3d& w) {
+            float& nearest = depth.at<float>(y, x);
+            nearest = std::min(nearest, static_cast<float>(w[0] * z[t[0]] + w[1] * z[t[1]] + w[2] * z[t[2]]));
+          });
+  }
+  return depth;
+}
+
+// No trust in pixels where something stands in front of the garment, whatever the mask says; where it was filled in, an
+// arm is meant to be there.
+void distrust_hidden(ColorView& view, const cv::Mat& garment_m, double gap_m) {
+  for (int y = 0; y < view.trust.rows; ++y)
+    for (int x = 0; x < view.trust.cols; ++x) {
+      float& trust = view.trust.at<float>(y, x);
+      const float z = garment_m.at<float>(y, x);
+      if (trust > kFilledTrust && z < kFar && z > view.occluder_m.at<float>(y, x) + gap_m) trust = 0;
+    }
+}
+
+cv::Mat disc(double radius_px) {
+  const int size = 2 * static_cast<int>(std::lround(radius_px)) + 1;
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
+}
+
+// 0 outside the eroded mask, rising to 1 inside; what was filled in keeps a small trust.
+cv::Mat trust_of(const cv::Mat& mask, double erode_px, double feather_px) {
+  cv::Mat padded, worn, seen, distance;
+  cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));  // what is cut off ends there
+  worn = padded > 0;
+  seen = padded == 255;
+  cv::distanceTransform(worn, distance, cv::DIST_L2, cv::DIST_MASK_5);
+  cv::Mat trust(mask.size(), CV_32FC1);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) {
+      const double inside = distance.at<float>(y + 1, x + 1) - erode_px;
+      const double rise = std::clamp(inside / std::max(feather_px, 1e-6), 0.0, 1.0);
+      trust.at<float>(y, x) = static_cast<float>(rise) * (seen.at<uchar>(y + 1, x + 1) ? 1.f : kFilledTrust);
+    }
+  return trust;
+}
+
+// Blur that knows nothing of what is outside the mask; beyond it the colours continue smoothly.
+cv::Mat blurred_within(const cv::Mat& color, const cv::Mat& trust, double sigma_px) {
+  cv::Mat weight = cv::max(trust, 0.f), weights, weighted;
+  cv::Mat blurred, sum;
+  cv::merge(std::vector<cv::Mat>{weight, weight, weight}, weights);
+  weighted = color.mul(weights);
+  cv::GaussianBlur(weighted, blurred, {}, sigma_px, sigma_px, cv::BORDER_CONSTANT);
+  cv::GaussianBlur(weights, sum, {}, sigma_px, sigma_px, cv::BORDER_CONSTANT);
+  cv::Mat low;
+  cv::divide(blurred, sum + cv::Scalar::all(1e-9), low);
+  return low;
+}
+
+cv::Mat float_color(const cv::Mat& color, double denoise_levels) {
+  cv::Mat result = color;
+  if (denoise_levels > 0) cv::bilateralFilter(color, result, 5, denoise_levels, 1.5);
+  cv::Mat converted;
+  result.convertTo(converted, CV_32FC3);
+  return converted;
+}
+
+double garment_distance(const ColorView& view, const Mesh& garment) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& v : garment.vertices) box.extend(v);
+  return box.isEmpty() ? 2 : std::max(0.3, (view.eye - box.center()).norm());
+}
+
+void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment,
+               const std::vector<const Mesh*>& scenery, const ViewParams& params) {
+  const int margin = 8;
+  cv::Rect crop = cv::boundingRect(filled.mask > 0);
+  crop = cv::Rect(crop.x - margin, crop.y - margin, crop.width + 2 * margin, crop.height + 2 * margin) &
+         cv::Rect({0, 0}, filled.mask.size());
+  view.origin = Vector2d(crop.x, crop.y);
+  view.color = float_color(filled.color(crop).clone(), params.denoise_levels);
+  const double pixels_per_m = view.camera.fx / garment_distance(view, garment);
+  view.trust =
+      trust_of(filled.mask(crop), std::max(1.0, params.erode_m * pixels_per_m), params.feather_m * pixels_per_m);
+  cv::erode(depth_of(view, crop, scenery), view.occluder_m, disc(std::max(1.0, params.occluder_m * pixels_per_m)));
+  distrust_hidden(view, depth_of(view, crop, {&garment}), params.occluder_gap_m);
+  view.low = blurred_within(view.color, view.trust, std::max(1.0, params.band_m * pixels_per_m));
+  view.low.copyTo(view.color, view.trust <= 0);  // so that no background comes in between pixels
+}
+
+}  // namespace
+
+bool ColorView::project(const Vector3d& point, Vector2d& pixel, double& z_m) const {
+  const Vector3d p = camera_from_model * point;
+  z_m = p.z();
+  if (!(z_m > 0.05)) return false;
+  pixel = camera.project(p) - origin;
+  return pixel.allFinite();
+}
+
+float ColorView::trust_at(const Vector2d& pixel, double z_m, double occluder_gap_m) const {
+  const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
+  if (x < 0 || y < 0 || x >= trust.cols || y >= trust.rows) return 0;
+  const float here = linear1(trust, pixel);
+  if (here <= kFilledTrust) return here;  // filled in: an arm is meant to be in front
+  return z_m > occluder_m.at<float>(y, x) + occluder_gap_m ? 0.f : here;
+}
+
+std::vector<ColorView> color_views(const std::vector<std::string>& sensors, const Calibration& calibration,
+                                   const Registration& registration, const std::map<std::string, FilledGarment>& filled,
+                                   const Mesh& garment, const std::vector<const Mesh*>& scenery,
+                                   const ViewParams& params) {
+  std::vector<ColorView> views;
+  for (const std::string& sensor : sensors) {
+    const auto found = filled.find(sensor);
+    const auto pose = registration.model_from_sensor.find(sensor);
+    const auto calibrated = calibration.sensors.find(sensor);
+    if (found == filled.end() || pose == registration.model_from_sensor.end() ||
+        calibrated == calibration.sensors.end() || !calibrated->second.color || found->second.mask.empty() ||
+        cv::countNonZero(found->second.mask) == 0)
+      continue;
+    ColorView view;
+    view.sensor = sensor;
+    view.camera = *calibrated->second.color;
+    view.camera_from_model = calibrated->second.color_from_ir * pose->second.inverse();
+    view.eye = view.camera_from_model.inverse().translation();
+    fill_view(view, found->second, garment, scenery, params);
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+namespace {
+
+template <class Value>
+Value linear(const cv::Mat& image, const Vector2d& pixel) {
+  const double x = std::clamp<double>(pixel.x(), 0, image.cols - 1),
+               y = std::clamp<double>(pixel.y(), 0, image.rows - 1);
+  const int x0 = std::min(static_cast<int>(x), image.cols - 1), y0 = std::min(static_cast<int>(y), image.rows - 1);
+  const int x1 = std::min(x0 + 1, image.cols - 1), y1 = std::min(y0 + 1, image.rows - 1);
+  const float fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
+  const Value top = image.at<Value>(y0, x0) * (1 - fx) + image.at<Value>(y0, x1) * fx;
+  const Value bottom = image.at<Value>(y1, x0) * (1 - fx) + image.at<Value>(y1, x1) * fx;
+  return top * (1 - fy) + bottom * fy;
+}
+
+std::array<float, 4> catmull_rom(float t) {
+  const float t2 = t * t, t3 = t2 * t;
+  return {0.5f * (-t + 2 * t2 - t3), 0.5f * (2 - 5 * t2 + 3 * t3), 0.5f * (t + 4 * t2 - 3 * t3), 0.5f * (t3 - t2)};
+}
+
+}  // namespace
+
+cv::Vec3f linear3(const cv::Mat& image, const Vector2d& pixel) { return linear<cv::Vec3f>(image, pixel); }
+float linear1(const cv::Mat& image, const Vector2d& pixel) { return linear<float>(image, pixel); }
+
+cv::Vec3f cubic3(const cv::Mat& image, const Vector2d& pixel) {
+  const double x = std::clamp<double>(pixel.x(), 0, image.cols - 1),
+               y = std::clamp<double>(pixel.y(), 0, image.rows - 1);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const auto wx = catmull_rom(static_cast<float>(x - x0)), wy = catmull_rom(static_cast<float>(y - y0));
+  cv::Vec3f sum(0, 0, 0);
+  for (int j = 0; j < 4; ++j) {
+    const auto* row = image.ptr<cv::Vec3f>(std::clamp(y0 + j - 1, 0, image.rows - 1));
+    cv::Vec3f line(0, 0, 0);
+    for (int i = 0; i < 4; ++i) line += row[std::clamp(x0 + i - 1, 0, image.cols - 1)] * wx[i];
+    sum += line * wy[j];
+  }
+  return sum;
+}
+
+}  // namespace dressform

@@ -1,0 +1,24 @@
+#pragma once
+#include "pipeline/texture/charts.h"
+
+namespace dressform {
+
+// How much each view counts at each vertex (vertices x views), for coarse and fine detail.
+struct BlendWeights {
+  Eigen::MatrixXf low, high;
+};
+
+struct Painted {
+  cv::Mat texture;         // 8-bit BGR, the atlas's size, gutters and gaps filled in
+  double unseen_part = 0;  // of the area
+};
+
+// Colours every texel: the coarse band of the views blended widely and the fine band narrowly (Burt and Adelson, ACM
+// Trans. Graphics 1983; Baumberg, BMVC 2002). Where no view can see, the colour comes along the surface.
+Painted paint(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<ColorView>& views,
+              const VertexSamples& samples, const Atlas& atlas, const BlendWeights& weights, const ViewParams& params);
+
+// Texture coordinates (0 to 1) of the corners of an atlas.
+std::vector<std::array<Vector2f, 3>> texture_coordinates(const Atlas& atlas);
+
+}  // namespace dressform

@@ -1,0 +1,123 @@
+#include "pipeline/texture/surface_graph.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dressform {
+namespace {
+
+// Sides of all triangles, sorted by their vertices.
+std::vector<std::array<int, 3>> sorted_sides(const Mesh& mesh) {
+  std::vector<std::array<int, 3>> sides;  // a, b, triangle
+  sides.reserve(mesh.triangles.size() * 3);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
+      sides.push_back({a, b, static_cast<int>(i)});
+    }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+Eigen::RowVectorXf neighbor_mean(const SurfaceGraph& graph, const Eigen::MatrixXf& values, int vertex) {
+  Eigen::RowVectorXf sum = Eigen::RowVectorXf::Zero(values.cols());
+  for (const int n : graph.neighbors[vertex]) sum += values.row(n);
+  return sum / static_cast<float>(graph.neighbors[vertex].size());
+}
+
+// First guess for unknown vertices: layer by layer outwards from the known ones.
+std::vector<int> spread_in_layers(const SurfaceGraph& graph, Eigen::MatrixXf& values, std::vector<bool> known) {
+  std::vector<int> order, layer;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i]) layer.push_back(static_cast<int>(i));
+  while (!layer.empty()) {
+    std::vector<int> next;
+    for (const int v : layer)
+      for (const int n : graph.neighbors[v])
+        if (!known[n]) next.push_back(n);
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    for (const int v : next) {
+      Eigen::RowVectorXf sum = Eigen::RowVectorXf::Zero(values.cols());
+      int count = 0;
+      for (const int n : graph.neighbors[v])
+        if (known[n]) {
+          sum += values.row(n);
+          ++count;
+        }
+      values.row(v) = sum / static_cast<float>(count);
+    }
+    for (const int v : next) known[v] = true;
+    order.insert(order.end(), next.begin(), next.end());
+    layer = std::move(next);
+  }
+  return order;
+}
+
+}  // namespace
+
+SurfaceGraph::SurfaceGraph(const Mesh& mesh) : neighbors(mesh.vertices.size()) {
+  const auto sides = sorted_sides(mesh);
+  for (std::size_t i = 0; i < sides.size();) {
+    const auto [a, b, triangle] = sides[i];
+    Edge edge{a, b, triangle, -1, (mesh.vertices[a] - mesh.vertices[b]).norm()};
+    ++i;
+    if (i < sides.size() && sides[i][0] == a && sides[i][1] == b) edge.right = sides[i++][2];
+    edges.push_back(edge);
+    mean_edge_m += edge.length_m;
+    neighbors[a].push_back(b);
+    neighbors[b].push_back(a);
+  }
+  if (!edges.empty()) mean_edge_m /= static_cast<double>(edges.size());
+  for (auto& list : neighbors) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d& a = mesh.vertices[t[0]];
+    triangle_area_m2.push_back(0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm());
+  }
+}
+
+Eigen::MatrixXf spread_over_surface(const SurfaceGraph& graph, Eigen::MatrixXf values, double reach_m) {
+  if (!(graph.mean_edge_m > 0)) return values;
+  // A half step to the mean of a ring of radius e has a variance of e^2 / 4 along each direction.
+  const double per_step = 0.25 * graph.mean_edge_m * graph.mean_edge_m;
+  const int steps = static_cast<int>(std::min(2000.0, std::ceil(reach_m * reach_m / per_step)));
+  Eigen::MatrixXf next = values;
+  for (int step = 0; step < steps; ++step) {
+    for (int v = 0; v < values.rows(); ++v)
+      if (!graph.neighbors[v].empty()) next.row(v) = 0.5f * (values.row(v) + neighbor_mean(graph, values, v));
+    std::swap(values, next);
+  }
+  return values;
+}
+
+Eigen::MatrixXf fill_over_surface(const SurfaceGraph& graph, Eigen::MatrixXf values, const std::vector<bool>& known) {
+  Eigen::RowVectorXf mean = Eigen::RowVectorXf::Zero(values.cols());
+  int count = 0;
+  for (int v = 0; v < values.rows(); ++v)
+    if (known[v]) {
+      mean += values.row(v);
+      ++count;
+    }
+  if (count == 0) return values;
+  mean /= static_cast<float>(count);
+  for (int v = 0; v < values.rows(); ++v)
+    if (!known[v]) values.row(v) = mean;
+  const std::vector<int> order = spread_in_layers(graph, values, known);
+  constexpr int kMaxSweeps = 300;
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    float largest = 0;
+    for (const int v : order) {
+      const Eigen::RowVectorXf mean_around = neighbor_mean(graph, values, v);
+      largest = std::max(largest, (mean_around - values.row(v)).cwiseAbs().maxCoeff());
+      values.row(v) = mean_around;
+    }
+    if (largest < 0.255f) break;
+  }
+  return values;
+}
+
+}  // namespace dressform
