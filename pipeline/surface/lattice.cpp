@@ -116,33 +116,126 @@ int fill_hollows(const Lattice& lattice, std::vector<float>& field) {
   return filled;
 }
 
-// Grows the ball from the deepest point; returns which points it took.
-std::vector<std::uint8_t> grow(const Lattice& lattice, const std::vector<float>& field) {
+// How deep every inside point lies below the outside, in steps, by a two-pass chamfer transform; 0 outside. Growing by
+// this and not by the field keeps the front smooth where the field jumps.
+std::vector<float> depth_below(const Lattice& lattice, const std::vector<float>& field) {
+  std::vector<float> depth(field.size());
+  for (std::size_t i = 0; i < field.size(); ++i) depth[i] = field[i] < 0 ? 1e6f : 0.0f;
+  const auto visit = [&](int x, int y, int z, int sign) {
+    const std::size_t at = lattice.index(x, y, z);
+    if (depth[at] == 0) return;
+    for (int dz = -1; dz <= 0; ++dz)
+      for (int dy = -1; dy <= (dz ? 1 : 0); ++dy)
+        for (int dx = -1; dx <= (dz || dy ? 1 : -1); ++dx) {
+          const float length = std::sqrt(static_cast<float>(dx * dx + dy * dy + dz * dz));
+          depth[at] = std::min(depth[at], depth[lattice.index(x + sign * dx, y + sign * dy, z + sign * dz)] + length);
+        }
+  };
+  for (int z = 1; z + 1 < lattice.size[2]; ++z)
+    for (int y = 1; y + 1 < lattice.size[1]; ++y)
+      for (int x = 1; x + 1 < lattice.size[0]; ++x) visit(x, y, z, 1);
+  for (int z = lattice.size[2] - 2; z > 0; --z)
+    for (int y = lattice.size[1] - 2; y > 0; --y)
+      for (int x = lattice.size[0] - 2; x > 0; --x) visit(x, y, z, -1);
+  return depth;
+}
+
+// The largest piece of the points deeper than `least`.
+std::vector<std::uint8_t> largest_piece(const Lattice& lattice, const std::vector<float>& depth, float least) {
+  const auto step = strides(lattice);
+  std::vector<int> piece(depth.size(), 0);
+  int pieces = 0, largest = 0;
+  std::size_t most = 0;
+  std::vector<std::size_t> stack;
+  for (std::size_t start = 0; start < depth.size(); ++start) {
+    if (piece[start] || depth[start] <= least) continue;
+    piece[start] = ++pieces;
+    stack.assign(1, start);
+    std::size_t size = 0;
+    while (!stack.empty()) {
+      const std::size_t at = stack.back();
+      stack.pop_back();
+      ++size;
+      for (const std::ptrdiff_t d : step) {
+        if (piece[at + d] || depth[at + d] <= least) continue;
+        piece[at + d] = pieces;
+        stack.push_back(at + d);
+      }
+    }
+    if (size <= most) continue;
+    most = size;
+    largest = pieces;
+  }
+  std::vector<std::uint8_t> taken(depth.size(), 0);
+  for (std::size_t i = 0; i < depth.size(); ++i) taken[i] = largest > 0 && piece[i] == largest;
+  return taken;
+}
+
+// Euler characteristic of the points taken and all that lies between them: 1 for a ball, less by one for a handle, more
+// by one for a hollow.
+int euler(const Lattice& lattice, const std::vector<std::uint8_t>& taken) {
+  const auto step = strides(lattice);
+  long sum = 0;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    if (!taken[i]) continue;  // counts each simplex at its lowest corner
+    ++sum;
+    for (int a = 1; a < 8; ++a) {
+      if (!taken[i + step[a - 1]]) continue;
+      --sum;
+      for (int b = a + 1; b < 8; ++b) {
+        if ((a & b) != a || !taken[i + step[b - 1]]) continue;
+        ++sum;
+        for (int c = b + 1; c < 8; ++c)
+          if ((b & c) == b && taken[i + step[c - 1]]) --sum;
+      }
+    }
+  }
+  return static_cast<int>(sum);
+}
+
+// Adds the inside points that change no topology, deepest first, until none is left.
+void grow(const Lattice& lattice, const std::vector<float>& depth, std::vector<std::uint8_t>& taken) {
   const auto step = strides(lattice);
   const auto& simple = simple_table();
-  std::vector<std::uint8_t> taken(field.size(), 0);
   using Item = std::pair<float, std::size_t>;
   std::priority_queue<Item, std::vector<Item>, std::greater<Item>> front;
-  const std::size_t seed = std::min_element(field.begin(), field.end()) - field.begin();
-  std::vector<std::uint8_t> waiting(field.size(), 0);
-  const auto take = [&](std::size_t at) {
-    taken[at] = 1;
-    for (int i = 0; i < 14; ++i) {
-      const std::size_t next = at + step[i];
-      if (taken[next] || waiting[next] || field[next] >= 0) continue;
+  std::vector<std::uint8_t> waiting(depth.size(), 0);
+  const auto offer_neighbours = [&](std::size_t at) {
+    for (const std::ptrdiff_t d : step) {
+      const std::size_t next = at + d;
+      if (taken[next] || waiting[next] || depth[next] <= 0) continue;
       waiting[next] = 1;
-      front.push({field[next], next});
+      front.push({-depth[next], next});
     }
   };
-  take(seed);
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (taken[i]) offer_neighbours(i);
   while (!front.empty()) {
     const std::size_t at = front.top().second;
     front.pop();
     waiting[at] = 0;  // a neighbour taken later brings it back
     unsigned set = 0;
     for (int i = 0; i < 14; ++i) set |= static_cast<unsigned>(taken[at + step[i]]) << i;
-    if (simple[set]) take(at);
+    if (!simple[set]) continue;
+    taken[at] = 1;
+    offer_neighbours(at);
   }
+}
+
+// The inside points that make a ball. Mostly they do already; where they do not, a ball is looked for by taking off
+// layers, which opens what only touches, and is grown back. The last resort is to grow from the deepest point.
+std::vector<std::uint8_t> ball_of(const Lattice& lattice, const std::vector<float>& field) {
+  const std::vector<float> depth = depth_below(lattice, field);
+  std::vector<std::uint8_t> taken;
+  for (float least = 0; least < 16; least += 1) {
+    taken = largest_piece(lattice, depth, least);
+    if (euler(lattice, taken) != 1) continue;
+    if (least > 0) grow(lattice, depth, taken);
+    return taken;
+  }
+  taken.assign(depth.size(), 0);
+  taken[std::max_element(depth.begin(), depth.end()) - depth.begin()] = 1;
+  grow(lattice, depth, taken);
   return taken;
 }
 
@@ -238,7 +331,7 @@ std::vector<float> ball_field(const Lattice& lattice, std::vector<float> field, 
   clear_border(lattice, field);
   if (std::none_of(field.begin(), field.end(), [](float f) { return f < 0; })) return {};
   report.filled_points = fill_hollows(lattice, field);
-  const auto taken = grow(lattice, field);
+  const auto taken = ball_of(lattice, field);
   const float least = static_cast<float>(0.02 * lattice.step_m), cut = static_cast<float>(0.1 * lattice.step_m);
   for (std::size_t i = 0; i < field.size(); ++i) {
     if (taken[i]) {

@@ -42,10 +42,10 @@ struct BallReport {
   int filled_points = 0;  // points of enclosed hollows
 };
 
-// The field (negative inside) changed where needed so that its inside is one piece without handles or hollows: a ball,
-// grown from its deepest point by adding points that change no topology (simple points: inside and outside neighbours
-// are both connected), deepest first. Points on the lattice's border end outside. Returns an empty field when nothing
-// is inside.
+// The field (negative inside) changed where needed so that its inside is one piece without handles or hollows: a ball.
+// Where it is none, layers are taken off until it is (which opens what only touches), and grown back by adding points
+// that change no topology (simple points: inside and outside neighbours are both connected), deepest first. Points on
+// the lattice's border end outside. Returns an empty field when nothing is inside.
 std::vector<float> ball_field(const Lattice& lattice, std::vector<float> field, BallReport& report);
 
 // Surface between inside (negative) and outside: marching tetrahedra, which has no ambiguous case. Closed, manifold and

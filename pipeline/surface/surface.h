@@ -27,7 +27,7 @@ struct ClosedGarments {
 
 struct SurfaceTag {
   static constexpr const char* name = "surface";
-  static constexpr const char* default_variant = "poisson";
+  static constexpr const char* default_variant = "layer";
 };
 using Surface = Stage<SurfaceTag, ClosedGarments(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                                  const Registration&, const FilledViews&)>;

@@ -1,0 +1,255 @@
+#include "pipeline/surface/covered_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace dressform {
+namespace {
+
+constexpr double kEndQuantile = 0.003;  // of the points, beyond which an end does not reach
+constexpr int kTubeSides = 72;
+constexpr double kTubeStep_m = 0.02;
+constexpr double kBeyond_m = 0.04;  // body kept past the caps, so that the surface runs straight up to them
+
+double quantile(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + std::min(values.size() - 1, static_cast<std::size_t>(part * values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
+bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
+
+// Whether the points go round each leg: between the legs, a garment round both has points in front and behind.
+bool goes_round_each_leg(const std::vector<Vector3d>& points, const BodyLimbs& limbs, double bottom_y) {
+  if (!limbs.left_leg || !limbs.right_leg) return false;
+  const Limb &a = *limbs.left_leg, &b = *limbs.right_leg;
+  constexpr double kBin_m = 0.02;
+  const double top = limbs.crotch_y - 0.03;
+  const int bins = static_cast<int>(std::floor((top - bottom_y) / kBin_m));
+  if (bins < 1) return false;
+  std::vector<int> between(bins, 0), around(bins, 0);
+  for (const Vector3d& p : points) {
+    const int bin = static_cast<int>(std::floor((top - p.y()) / kBin_m));
+    if (bin < 0 || bin >= bins) continue;
+    ++around[bin];
+    const Vector3d left = a.root + a.direction * ((p.y() - a.root.y()) / a.direction.y());
+    const Vector3d right = b.root + b.direction * ((p.y() - b.root.y()) / b.direction.y());
+    const Vector3d from_middle = p - (left + right) / 2;
+    if (std::abs(from_middle.dot(limbs.left)) < 0.012 && std::abs(from_middle.dot(limbs.front)) > 0.045) ++between[bin];
+  }
+  int bridged = 0, judged = 0;
+  for (int bin = 0; bin < bins; ++bin) {
+    if (around[bin] < 10) continue;
+    ++judged;
+    bridged += between[bin] >= 2;
+  }
+  return 2 * bridged < judged;
+}
+
+// The hull of what the section of legs and torso shows at one height, as distances from a centre in all directions.
+struct HullLevel {
+  double y = 0;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  std::vector<double> radius;
+};
+
+std::vector<cv::Point2f> hull_at(const std::vector<Vector3d>& points, double y) {
+  std::vector<cv::Point2f> flat, hull;
+  for (const Vector3d& p : points)
+    if (std::abs(p.y() - y) < kTubeStep_m / 2) flat.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
+  if (flat.size() >= 3) cv::convexHull(flat, hull);
+  return hull;
+}
+
+HullLevel radial(const std::vector<cv::Point2f>& hull, double y) {
+  HullLevel level;
+  level.y = y;
+  cv::Point2f low = hull[0], high = hull[0];
+  for (const auto& p : hull) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  level.centre = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+  for (int k = 0; k < kTubeSides; ++k) {
+    const double angle = 2 * M_PI * k / kTubeSides;
+    const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
+    double farthest = 0.01;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const auto &p = hull[i], &q = hull[(i + 1) % hull.size()];
+      const Eigen::Vector2d a = Eigen::Vector2d(p.x, p.y) - level.centre, e = Eigen::Vector2d(q.x - p.x, q.y - p.y);
+      const double det = ray.x() * -e.y() + ray.y() * e.x();
+      if (std::abs(det) < 1e-12) continue;
+      const double t = (a.x() * -e.y() + a.y() * e.x()) / det, s = (ray.x() * a.y() - ray.y() * a.x()) / det;
+      if (s >= -1e-6 && s <= 1 + 1e-6) farthest = std::max(farthest, t);
+    }
+    level.radius.push_back(farthest);
+  }
+  return level;
+}
+
+// Closed tube of the convex hulls of the legs, up to a little above the crotch.
+Mesh leg_tube(const Mesh& body, const BodyLimbs& limbs, double bottom_y) {
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < body.triangles.size(); ++i) {
+    const BodyPart part = limbs.triangle_parts[i];
+    if (!is_leg(part) && part != BodyPart::torso) continue;
+    for (int k = 0; k < 3; ++k) points.push_back(body.vertices[body.triangles[i][k]]);
+  }
+  std::vector<HullLevel> levels;
+  const double top = limbs.crotch_y + 0.06;
+  for (double y = top; y > bottom_y; y -= kTubeStep_m) {
+    const auto hull = hull_at(points, y);
+    if (hull.size() >= 3) levels.push_back(radial(hull, y));
+  }
+  Mesh tube;
+  if (levels.size() < 2) return tube;
+  const int count = static_cast<int>(levels.size());
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < kTubeSides; ++k) {
+      double radius = 0;
+      int used = 0;
+      for (int j = std::max(0, i - 2); j <= std::min(count - 1, i + 2); ++j, ++used) radius += levels[j].radius[k];
+      const double angle = 2 * M_PI * k / kTubeSides;
+      const Eigen::Vector2d at = levels[i].centre + radius / used * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      tube.vertices.emplace_back(at.x(), levels[i].y, at.y());
+    }
+  for (int i = 0; i + 1 < count; ++i)
+    for (int k = 0; k < kTubeSides; ++k) {
+      const int a = i * kTubeSides + k, b = i * kTubeSides + (k + 1) % kTubeSides;
+      tube.triangles.emplace_back(a, b, b + kTubeSides);
+      tube.triangles.emplace_back(a, b + kTubeSides, a + kTubeSides);
+    }
+  for (const int end : {0, count - 1}) {
+    const int middle = static_cast<int>(tube.vertices.size());
+    tube.vertices.emplace_back(levels[end].centre.x(), levels[end].y, levels[end].centre.y());
+    for (int k = 0; k < kTubeSides; ++k) {
+      const int a = end * kTubeSides + k, b = end * kTubeSides + (k + 1) % kTubeSides;
+      tube.triangles.push_back(end == 0 ? Vector3i(middle, b, a) : Vector3i(middle, a, b));
+    }
+  }
+  return tube;
+}
+
+std::vector<bool> kept_triangles(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment,
+                                 const GarmentExtent& extent, double past_m) {
+  const Mesh& body = naked.mesh();
+  std::vector<bool> kept(body.triangles.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Vector3i& t = body.triangles[i];
+    const Vector3d centre = (body.vertices[t[0]] + body.vertices[t[1]] + body.vertices[t[2]]) / 3;
+    const BodyPart part = limbs.triangle_parts[i];
+    kept[i] = centre.y() < extent.top_y + past_m;
+    if (is_arm(part)) {
+      const int side = part == BodyPart::left_arm ? 0 : 1;
+      kept[i] =
+          garment == "top" && extent.has_arm[side] && limbs.arm(side)->along(centre) < extent.arm_along[side] + past_m;
+    } else if (is_leg(part) && extent.forked) {
+      kept[i] = kept[i] && centre.y() > extent.leg_bottom_y[part == BodyPart::left_leg ? 0 : 1] - past_m;
+    } else {
+      kept[i] = kept[i] && centre.y() > extent.bottom_y - past_m;
+    }
+  }
+  return kept;
+}
+
+Mesh only(const Mesh& mesh, const std::vector<bool>& kept) {
+  Mesh part;
+  part.vertices = mesh.vertices;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) part.triangles.push_back(mesh.triangles[i]);
+  return compacted(part);
+}
+
+}  // namespace
+
+GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud, const MeshQuery& naked,
+                             const BodyLimbs& limbs) {
+  GarmentExtent extent;
+  std::vector<double> heights, arms[2], legs[2];
+  std::vector<Vector3d> around_legs;
+  for (const Vector3d& p : cloud.points) {
+    const int triangle = naked.closest(p).triangle;
+    const BodyPart part = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
+    if (is_arm(part) && garment == "top") {
+      const int side = part == BodyPart::left_arm ? 0 : 1;
+      arms[side].push_back(limbs.arm(side)->along(p));
+      continue;
+    }
+    heights.push_back(p.y());
+    if (p.y() > limbs.crotch_y) continue;
+    around_legs.push_back(p);
+    const int side = (p - (limbs.left_leg ? limbs.left_leg->root : Vector3d::Zero())).dot(limbs.left) >
+                             (limbs.right_leg ? (limbs.right_leg->root - p).dot(limbs.left) : 0)
+                         ? 0
+                         : 1;
+    legs[side].push_back(p.y());
+  }
+  extent.top_y = quantile(heights, 1 - kEndQuantile);
+  extent.bottom_y = quantile(heights, kEndQuantile);
+  for (int side = 0; side < 2; ++side) {
+    extent.has_arm[side] = limbs.arm(side) && garment == "top";
+    extent.arm_along[side] = arms[side].size() < 20 ? 0 : quantile(arms[side], 1 - kEndQuantile);
+    extent.leg_bottom_y[side] = legs[side].size() < 20 ? extent.bottom_y : quantile(legs[side], kEndQuantile);
+  }
+  extent.forked = garment == "bottom" && goes_round_each_leg(around_legs, limbs, extent.bottom_y);
+  return extent;
+}
+
+CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment,
+                         const GarmentExtent& extent, double margin_m)
+    : naked_(naked),
+      limbs_(limbs),
+      extent_(extent),
+      margin_m_(margin_m),
+      kept_(kept_triangles(naked, limbs, garment, extent, margin_m + kBeyond_m)),
+      covered_(only(naked.mesh(), kept_)),
+      tube_(!extent.forked && extent.bottom_y < limbs.crotch_y + 0.06
+                ? leg_tube(naked.mesh(), limbs, extent.bottom_y - margin_m - kBeyond_m)
+                : Mesh{}) {
+  bool first = true;
+  for (const Mesh* mesh : {&covered_.mesh(), &tube_.mesh()})
+    for (const Vector3d& v : mesh->vertices) {
+      low_ = first ? v : Vector3d(low_.cwiseMin(v));
+      high_ = first ? v : Vector3d(high_.cwiseMax(v));
+      first = false;
+    }
+  const double bottom = extent.forked ? std::min(extent.leg_bottom_y[0], extent.leg_bottom_y[1]) : extent.bottom_y;
+  low_.y() = std::max(low_.y(), std::min(bottom, extent.bottom_y) - margin_m);
+  high_.y() = std::min(high_.y(), extent.top_y + margin_m);
+}
+
+double CoveredBody::signed_distance(const Vector3d& point) const {
+  const auto closest = covered_.closest(point);
+  double distance = closest.distance;
+  if (closest.triangle >= 0) {
+    const auto nearest = naked_.closest(point, distance + 1e-6);
+    if (nearest.triangle >= 0 && kept_[nearest.triangle] && naked_.signed_distance(point, nearest) < 0)
+      distance = -distance;
+  }
+  return std::min(distance, tube_.signed_distance(point));
+}
+
+double CoveredBody::beyond_ends(const Vector3d& point) const {
+  double beyond = point.y() - extent_.top_y;
+  double bottom = extent_.bottom_y;
+  if (extent_.forked && point.y() < limbs_.crotch_y) {
+    const Vector3d left = limbs_.left_leg->root, right = limbs_.right_leg->root;
+    bottom = extent_.leg_bottom_y[(point - (left + right) / 2).dot(limbs_.left) > 0 ? 0 : 1];
+  }
+  beyond = std::max(beyond, bottom - point.y());
+  for (int side = 0; side < 2; ++side) {
+    if (!extent_.has_arm[side]) continue;
+    const Limb& arm = *limbs_.arm(side);
+    const double past = arm.along(point) - extent_.arm_along[side];
+    if (past < -margin_m_ - kBeyond_m) continue;
+    const int triangle = naked_.closest(point).triangle;
+    const BodyPart part = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
+    if (triangle >= 0 && limbs_.triangle_parts[triangle] == part) beyond = std::max(beyond, past);
+  }
+  return beyond - margin_m_;
+}
+
+}  // namespace dressform

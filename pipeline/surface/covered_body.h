@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <string>
+
+#include "pipeline/common/body_limbs.h"
+#include "pipeline/common/mesh_query.h"
+#include "pipeline/surface/garment_cloud.h"
+
+namespace dressform {
+
+// How far a garment reaches along the body, judged by where its points are. A little beyond these ends the closed
+// surface is capped.
+struct GarmentExtent {
+  double top_y = 0, bottom_y = 0;             // neck or waist; hem or ankles
+  std::array<bool, 2> has_arm{false, false};  // left, right
+  std::array<double, 2> arm_along{0, 0};      // Limb::along of the cuffs
+  std::array<double, 2> leg_bottom_y{0, 0};   // left, right
+  bool forked = false;                        // a tube round each leg; else one round both
+};
+
+// `garment`: "top" (may have sleeves, never forked) or "bottom" (no sleeves).
+GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud, const MeshQuery& naked,
+                             const BodyLimbs& limbs);
+
+// The part of the body that a garment goes round: the naked body without the limbs that stick out of it, and for
+// garments that are not forked a convex tube round both legs.
+class CoveredBody {
+ public:
+  CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment, const GarmentExtent& extent,
+              double margin_m);
+
+  // Distance to its surface, metres, negative inside. Positive infinity if nothing is covered.
+  double signed_distance(const Vector3d& point) const;
+
+  // Distance beyond the ends of the garment plus the margin: positive there, negative within.
+  double beyond_ends(const Vector3d& point) const;
+
+  // Box of the covered body, cut at the ends.
+  const Vector3d& low() const { return low_; }
+  const Vector3d& high() const { return high_; }
+
+ private:
+  const MeshQuery& naked_;
+  const BodyLimbs& limbs_;
+  GarmentExtent extent_;
+  double margin_m_;
+  std::vector<bool> kept_;  // of the naked triangles
+  MeshQuery covered_, tube_;
+  Vector3d low_ = Vector3d::Zero(), high_ = Vector3d::Zero();
+};
+
+}  // namespace dressform

@@ -1,0 +1,245 @@
+#include "pipeline/surface/garment_cloud.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+
+#include "pipeline/common/color_mapping.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kMadeUpWeight = 0.15;
+constexpr double kLargestShift_mm = 10;  // smoothing moves no depth further
+
+struct Nearest {
+  const std::vector<Vector3d>& points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Nearest>, Nearest, 3>;
+
+// 255 at pixels beside a jump of the scene's depth, and at garment pixels with hardly any garment around them.
+cv::Mat unreliable(const cv::Mat& garment_mm, const cv::Mat& scene_mm, double jump_mm) {
+  cv::Mat result(garment_mm.size(), CV_8U, cv::Scalar(0));
+  for (int y = 0; y < garment_mm.rows; ++y)
+    for (int x = 0; x < garment_mm.cols; ++x) {
+      const float z = garment_mm.at<float>(y, x);
+      if (z <= 0) continue;
+      int close = 0;
+      bool jump = false;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int u = x + dx, v = y + dy;
+          if ((!dx && !dy) || u < 0 || v < 0 || u >= garment_mm.cols || v >= garment_mm.rows) continue;
+          const float other = garment_mm.at<float>(v, u), scene = scene_mm.at<float>(v, u);
+          if (other > 0 && std::abs(other - z) < jump_mm) {
+            ++close;
+          } else if ((dx == 0 || dy == 0) && scene > 0 && std::abs(scene - z) > jump_mm) {
+            jump = true;
+          }
+        }
+      if (jump || close < 3) result.at<uchar>(y, x) = 255;
+    }
+  return result;
+}
+
+struct LocalPlane {
+  bool found = false;
+  Vector3d normal;  // towards the sensor
+  double depth_mm = 0;
+};
+
+// Plane through the garment's points around a pixel, weighted by a Gaussian in the image.
+LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y, double sigma_px, double jump_mm) {
+  LocalPlane plane;
+  const double z0 = depth_mm.at<float>(y, x);
+  Vector3d mean = Vector3d::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double sum = 0;
+  const double sigma = std::max(sigma_px, 1.0);
+  const int reach = std::max(2, static_cast<int>(std::ceil(2 * sigma)));
+  for (int v = std::max(0, y - reach); v <= std::min(depth_mm.rows - 1, y + reach); ++v)
+    for (int u = std::max(0, x - reach); u <= std::min(depth_mm.cols - 1, x + reach); ++u) {
+      const double z = depth_mm.at<float>(v, u);
+      const int far = std::max(std::abs(u - x), std::abs(v - y));
+      if (z <= 0 || std::abs(z - z0) > jump_mm * std::max(1, far)) continue;
+      const cv::Vec2f& ray = rays.at<cv::Vec2f>(v, u);
+      const Vector3d p(ray[0] * z, ray[1] * z, z);
+      const double w = std::exp(-0.5 * ((u - x) * (u - x) + (v - y) * (v - y)) / (sigma * sigma));
+      sum += w;
+      mean += w * p;
+      spread += w * p * p.transpose();
+    }
+  if (sum < 3) return plane;
+  mean /= sum;
+  spread = spread / sum - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(spread);
+  plane.normal = solver.eigenvectors().col(0);
+  const cv::Vec2f& ray = rays.at<cv::Vec2f>(y, x);
+  const Vector3d direction(ray[0], ray[1], 1);
+  if (plane.normal.dot(direction) > 0) plane.normal = -plane.normal;
+  const double slope = plane.normal.dot(direction);
+  if (!plane.normal.allFinite() || std::abs(slope) < 1e-3) return plane;
+  plane.depth_mm = sigma_px > 0 ? plane.normal.dot(mean) / slope : z0;
+  plane.found = std::abs(plane.depth_mm - z0) < kLargestShift_mm;
+  return plane;
+}
+
+void add_view(const FilledGarment& garment, const DepthView& view, const GarmentCloudParams& params,
+              GarmentCloud& result) {
+  const cv::Mat bad = unreliable(garment.depth_mm, view.depth_mm, params.jump_mm);
+  const cv::Mat color_pixels = view.sensor->color ? color_of_depth_pixels(garment.depth_mm, *view.sensor) : cv::Mat();
+  for (int y = 0; y < garment.depth_mm.rows; ++y)
+    for (int x = 0; x < garment.depth_mm.cols; ++x) {
+      const float z = garment.depth_mm.at<float>(y, x);
+      if (!(z > 0)) continue;
+      const LocalPlane plane = fit_plane(garment.depth_mm, view.rays, x, y, params.smooth_px, params.jump_mm);
+      const cv::Vec2f& ray = view.rays.at<cv::Vec2f>(y, x);
+      const Vector3d direction(ray[0], ray[1], 1);
+      const double cosine = plane.found ? -plane.normal.dot(direction) / direction.norm() : 0;
+      const bool made_up = !garment.synthetic.empty() && garment.synthetic.at<uchar>(y, x);
+      if (cosine < params.least_cosine || (bad.at<uchar>(y, x) && !made_up)) {
+        ++result.dropped;
+        continue;
+      }
+      result.cloud.points.push_back(view.model_from_sensor * (direction * plane.depth_mm / 1000));
+      result.cloud.normals.push_back(view.model_from_sensor.linear() * plane.normal);
+      result.cloud.views.push_back(view.index);
+      result.weights.push_back(static_cast<float>(cosine * cosine * (made_up ? kMadeUpWeight : 1)));
+      Vector3f color(0.5f, 0.5f, 0.5f);
+      if (!color_pixels.empty() && !garment.color.empty()) {
+        const cv::Vec2f& at = color_pixels.at<cv::Vec2f>(y, x);
+        if (std::isfinite(at[0])) {
+          const int u = std::clamp(static_cast<int>(std::lround(at[0])), 0, garment.color.cols - 1);
+          const int v = std::clamp(static_cast<int>(std::lround(at[1])), 0, garment.color.rows - 1);
+          const cv::Vec3b& bgr = garment.color.at<cv::Vec3b>(v, u);
+          color = Vector3f(bgr[2], bgr[1], bgr[0]) / 255.0f;
+        }
+      }
+      result.cloud.colors.push_back(color);
+    }
+}
+
+// Keeps the points for which keep[i] is set.
+void filter(GarmentCloud& cloud, const std::vector<char>& keep) {
+  GarmentCloud kept;
+  kept.dropped = cloud.dropped;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (!keep[i]) {
+      ++kept.dropped;
+      continue;
+    }
+    kept.cloud.points.push_back(cloud.cloud.points[i]);
+    kept.cloud.normals.push_back(cloud.cloud.normals[i]);
+    kept.cloud.colors.push_back(cloud.cloud.colors[i]);
+    kept.cloud.views.push_back(cloud.cloud.views[i]);
+    kept.weights.push_back(cloud.weights[i]);
+  }
+  cloud = std::move(kept);
+}
+
+std::vector<char> plausible(const GarmentCloud& cloud, const std::vector<DepthView>& views, const MeshQuery& naked,
+                            double crotch_y, const GarmentCloudParams& params) {
+  std::vector<char> keep(cloud.cloud.points.size(), 1);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    const Vector3d& p = cloud.cloud.points[i];
+    const double farthest = p.y() > crotch_y ? params.outside_body_m : params.outside_legs_m;
+    const auto closest = naked.closest(p, std::max(farthest, params.inside_body_m) + 0.01);
+    const double distance = naked.signed_distance(p, closest);
+    keep[i] = distance >= -params.inside_body_m && distance <= farthest;
+    for (const DepthView& view : views)
+      if (keep[i] && view.index != cloud.cloud.views[i] && seen_through_m(view, p) > params.see_through_m) keep[i] = 0;
+  }
+  return keep;
+}
+
+std::vector<char> sociable(const std::vector<Vector3d>& points, int neighbours, double sigmas) {
+  std::vector<char> keep(points.size(), 1);
+  if (static_cast<int>(points.size()) <= neighbours) return keep;
+  const Nearest adaptor{points};
+  const Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  std::vector<double> mean(points.size());
+  std::vector<std::uint32_t> index(neighbours + 1);
+  std::vector<double> squared(neighbours + 1);
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t found = tree.knnSearch(points[i].data(), neighbours + 1, index.data(), squared.data());
+    for (std::size_t k = 0; k < found; ++k) mean[i] += std::sqrt(squared[k]) / neighbours;
+    sum += mean[i];
+    squares += mean[i] * mean[i];
+  }
+  const double average = sum / points.size();
+  const double deviation = std::sqrt(std::max(0.0, squares / points.size() - average * average));
+  for (std::size_t i = 0; i < points.size(); ++i) keep[i] = mean[i] <= average + sigmas * deviation;
+  return keep;
+}
+
+}  // namespace
+
+std::vector<DepthView> depth_views(const CaptureSession& session, const Calibration& calibration,
+                                   const Registration& registration) {
+  std::vector<DepthView> views;
+  for (std::size_t i = 0; i < session.sensors.size(); ++i) {
+    const std::string& name = session.sensors[i];
+    const auto shot = session.dressed.find(name);
+    const auto sensor = calibration.sensors.find(name);
+    const auto pose = registration.model_from_sensor.find(name);
+    if (shot == session.dressed.end() || sensor == calibration.sensors.end() ||
+        pose == registration.model_from_sensor.end() || shot->second.depth_mm.empty())
+      continue;
+    DepthView view;
+    view.index = static_cast<int>(i);
+    view.sensor = &sensor->second;
+    view.model_from_sensor = pose->second;
+    view.sensor_from_model = pose->second.inverse();
+    view.depth_mm = corrected_depth_mm(shot->second.depth_mm, sensor->second);
+    view.rays = pixel_rays(sensor->second.ir);
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+double seen_through_m(const DepthView& view, const Vector3d& point) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const Vector3d p = view.sensor_from_model * point;
+  if (p.z() < 0.1) return nothing;
+  const Vector2d pixel = view.sensor->ir.project(p);
+  if (!pixel.allFinite()) return nothing;
+  const int x = static_cast<int>(std::lround(std::clamp(pixel.x(), -10.0, 1e5)));
+  const int y = static_cast<int>(std::lround(std::clamp(pixel.y(), -10.0, 1e5)));
+  if (x < 1 || y < 1 || x >= view.depth_mm.cols - 1 || y >= view.depth_mm.rows - 1) return nothing;
+  float nearest = std::numeric_limits<float>::infinity();
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const float z = view.depth_mm.at<float>(y + dy, x + dx);
+      if (z <= 0) return nothing;
+      nearest = std::min(nearest, z);
+    }
+  return nearest / 1000.0 - p.z();
+}
+
+GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled, const std::vector<DepthView>& views,
+                           const CaptureSession& session, const MeshQuery& naked, double crotch_y,
+                           const GarmentCloudParams& params) {
+  GarmentCloud result;
+  const auto shots = filled.garments.find(garment);
+  if (shots == filled.garments.end()) return result;
+  for (const DepthView& view : views) {
+    const auto shot = shots->second.find(session.sensors[view.index]);
+    if (shot == shots->second.end() || shot->second.depth_mm.size() != view.depth_mm.size()) continue;
+    add_view(shot->second, view, params, result);
+  }
+  filter(result, plausible(result, views, naked, crotch_y, params));
+  filter(result, sociable(result.cloud.points, params.neighbours, params.outlier_sigma));
+  return result;
+}
+
+}  // namespace dressform

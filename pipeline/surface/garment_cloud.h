@@ -1,0 +1,67 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "pipeline/common/mesh_query.h"
+#include "pipeline/fill/fill.h"
+#include "pipeline/registration/registration.h"
+#include "scenes/capture_session.h"
+
+namespace dressform {
+
+struct GarmentCloudParams {
+  double smooth_px = 1.2;        // sigma of the plane fit in the depth image; 0: depth as it is
+  double jump_mm = 25;           // neighbouring depth pixels that differ by more are an edge
+  double least_cosine = 0.25;    // surface seen at a lower n.v is dropped
+  double see_through_m = 0.03;   // a point this far in front of what another view sees is dropped
+  double inside_body_m = 0.012;  // deepest point under the naked surface
+  double outside_body_m = 0.15;  // farthest point off the naked surface, above the crotch
+  double outside_legs_m = 0.40;  // the same below the crotch, where skirts stand off
+  int neighbours = 20;           // of the statistical test
+  double outlier_sigma = 3.0;    // mean neighbour distances beyond this are dropped
+};
+
+template <class V>
+void fields(V& v, GarmentCloudParams& p) {
+  v("smooth_px", p.smooth_px, 0.0, 4.0, "px", "sigma of the local plane fit that takes the noise off the depth");
+  v("jump_mm", p.jump_mm, 5.0, 100.0, "mm", "neighbouring depth pixels that differ by more are an edge");
+  v("least_cosine", p.least_cosine, 0.05, 0.9, "", "surface seen at a lower cosine to its normal is dropped");
+  v("see_through_m", p.see_through_m, 0.01, 0.2, "m", "a point this far in front of what another view sees is dropped");
+  v("inside_body_m", p.inside_body_m, 0.0, 0.1, "m", "deepest point kept under the naked surface");
+  v("outside_body_m", p.outside_body_m, 0.02, 1.0, "m", "farthest point kept off the naked surface above the crotch");
+  v("outside_legs_m", p.outside_legs_m, 0.02, 1.0, "m", "farthest point kept off the naked surface below the crotch");
+  v("neighbours", p.neighbours, 4, 100, "", "nearest neighbours of the statistical outlier test");
+  v("outlier_sigma", p.outlier_sigma, 0.5, 10.0, "", "neighbour distances this many deviations out are dropped");
+}
+
+// Points of one garment from all views.
+struct GarmentCloud {
+  PointCloud cloud;            // model frame, normals towards the sensors, sRGB colours, views = index of the sensor
+  std::vector<float> weights;  // how far each point is to be believed, 0-1: facing and not made up
+  int dropped = 0;             // points the outlier tests took away
+};
+
+// A registered view as the outlier tests and the carving see it.
+struct DepthView {
+  int index = 0;  // in CaptureSession::sensors
+  const SensorCalibration* sensor = nullptr;
+  Isometry3d model_from_sensor = Isometry3d::Identity(), sensor_from_model = Isometry3d::Identity();
+  cv::Mat depth_mm;  // float32, true depth of the dressed shot, 0 = none
+  cv::Mat rays;      // pixel_rays of the IR camera
+};
+// The registered dressed views, in the session's order.
+std::vector<DepthView> depth_views(const CaptureSession& session, const Calibration& calibration,
+                                   const Registration& registration);
+
+// How far in front of everything that the view sees around its pixel the point (model frame) lies, metres; negative
+// behind; NaN where the view has no depth for all of the 3 x 3 pixels or does not cover the point.
+double seen_through_m(const DepthView& view, const Vector3d& point);
+
+// Oriented, coloured, cleaned points of a garment ("top", "bottom"): depth smoothed by local plane fits; without edges
+// of the depth image, grazing surface, points that other views see through, points far from the naked body, and
+// statistical outliers. Views that are not registered are left out. May be empty.
+GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled, const std::vector<DepthView>& views,
+                           const CaptureSession& session, const MeshQuery& naked, double crotch_y,
+                           const GarmentCloudParams& params);
+
+}  // namespace dressform

@@ -1,0 +1,181 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/surface/covered_body.h"
+#include "pipeline/surface/garment_cloud.h"
+#include "pipeline/surface/lattice.h"
+#include "pipeline/surface/mesh_tidy.h"
+#include "pipeline/surface/offset_field.h"
+#include "pipeline/surface/surface.h"
+
+namespace dressform {
+namespace {
+
+struct LayerParams {
+  GarmentCloudParams cloud;
+  double step_m = 0.006;
+  double kernel_m = 0.006;
+  double reach_m = 0.018;
+  double stiffness = 6.0;
+  int sweeps = 12;
+  double margin_m = 0.04;
+  double carve_m = 0.03;
+  double edge_m = 0.008;
+  int fewest_points = 300;
+};
+template <class V>
+void fields(V& v, LayerParams& p) {
+  fields(v, p.cloud);
+  v("step_m", p.step_m, 0.003, 0.03, "m", "edge of one lattice cell");
+  v("kernel_m", p.kernel_m, 0.002, 0.03, "m", "sigma, along the surface, of the average over points");
+  v("reach_m", p.reach_m, 0.006, 0.08, "m", "how far off the surface points say how far off it is");
+  v("stiffness", p.stiffness, 0.1, 100.0, "", "weight of the points against the smoothness of the ease");
+  v("sweeps", p.sweeps, 2, 200, "", "relaxation sweeps on every lattice of the pyramid");
+  v("margin_m", p.margin_m, 0.01, 0.2, "m", "how far the closed surface runs on beyond the ends of the garment");
+  v("carve_m", p.carve_m, 0.005, 0.2, "m", "space this far in front of what a view sees is empty");
+  v("edge_m", p.edge_m, 0.003, 0.05, "m", "edges of the mesh shorter than this are collapsed");
+  v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");
+}
+
+// A lattice with, at each point, the distance to the covered body: exact near it, interpolated elsewhere.
+struct Space {
+  Lattice lattice;
+  std::vector<float> body_distance;
+  std::vector<std::uint8_t> domain;  // where the surface can be
+};
+
+std::vector<float> distances(const Lattice& lattice, const CoveredBody& body) {
+  std::vector<float> result(lattice.count());
+  tbb::parallel_for(0, lattice.size[2], [&](int z) {
+    for (int y = 0; y < lattice.size[1]; ++y)
+      for (int x = 0; x < lattice.size[0]; ++x)
+        result[lattice.index(x, y, z)] = static_cast<float>(body.signed_distance(lattice.point(x, y, z)));
+  });
+  return result;
+}
+
+double interpolated(const Lattice& lattice, const std::vector<float>& values, const Vector3d& point) {
+  const Vector3d at = (point - lattice.origin) / lattice.step_m;
+  int base[3];
+  double part[3];
+  for (int k = 0; k < 3; ++k) {
+    base[k] = std::clamp(static_cast<int>(std::floor(at[k])), 0, lattice.size[k] - 2);
+    part[k] = std::clamp(at[k] - base[k], 0.0, 1.0);
+  }
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double w = 1;
+    for (int k = 0; k < 3; ++k) w *= corner >> k & 1 ? part[k] : 1 - part[k];
+    sum += w * values[lattice.index(base[0] + (corner & 1), base[1] + (corner >> 1 & 1), base[2] + (corner >> 2 & 1))];
+  }
+  return sum;
+}
+
+Space make_space(const CoveredBody& body, const PointCloud& cloud, const LayerParams& params) {
+  Vector3d low = body.low(), high = body.high();
+  for (const Vector3d& p : cloud.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  Space space;
+  space.lattice = make_lattice(low, high, params.reach_m + 4 * params.step_m, params.step_m);
+  double farthest = 0;
+  for (const Vector3d& p : cloud.points) farthest = std::max(farthest, body.signed_distance(p));
+  const double limit = farthest + params.reach_m + 2 * params.step_m;
+
+  const Lattice coarse = make_lattice(low, high, params.reach_m + 8 * params.step_m, 4 * params.step_m);
+  const std::vector<float> rough = distances(coarse, body);
+  const double slack = std::sqrt(3.0) * coarse.step_m;
+  space.body_distance.resize(space.lattice.count());
+  space.domain.resize(space.lattice.count());
+  tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
+    for (int y = 0; y < space.lattice.size[1]; ++y)
+      for (int x = 0; x < space.lattice.size[0]; ++x) {
+        const Vector3d point = space.lattice.point(x, y, z);
+        double distance = interpolated(coarse, rough, point);
+        if (distance < limit + slack && distance > -params.reach_m - slack) distance = body.signed_distance(point);
+        const std::size_t at = space.lattice.index(x, y, z);
+        space.body_distance[at] = static_cast<float>(distance);
+        space.domain[at] = distance < limit && distance > -params.reach_m - 2 * params.step_m;
+      }
+  });
+  return space;
+}
+
+// Where the field lies inside but some view looks through: the surface has to give way there.
+void carve(const Space& space, const std::vector<DepthView>& views, const std::vector<float>& ease, double carve_m,
+           LatticeData& data) {
+  const float outside = static_cast<float>(0.7 * space.lattice.step_m);
+  tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
+    for (int y = 0; y < space.lattice.size[1]; ++y)
+      for (int x = 0; x < space.lattice.size[0]; ++x) {
+        const std::size_t at = space.lattice.index(x, y, z);
+        if (!space.domain[at] || space.body_distance[at] < 0.002f) continue;
+        if (space.body_distance[at] - ease[at] > outside) continue;
+        const Vector3d point = space.lattice.point(x, y, z);
+        for (const DepthView& view : views)
+          if (seen_through_m(view, point) > carve_m) {
+            data.value[at] = space.body_distance[at] - outside;
+            data.weight[at] = std::max(data.weight[at], 0.5f);
+            break;
+          }
+      }
+  });
+}
+
+std::optional<ClosedGarment> make_garment(const std::string& name, const FilledViews& filled,
+                                          const std::vector<DepthView>& views, const CaptureSession& session,
+                                          const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {
+  GarmentCloud cloud = garment_cloud(name, filled, views, session, naked, limbs.crotch_y, params.cloud);
+  if (static_cast<int>(cloud.cloud.points.size()) < params.fewest_points) return {};
+  const GarmentExtent extent = garment_extent(name, cloud.cloud, naked, limbs);
+  const CoveredBody body(naked, limbs, name, extent, params.margin_m);
+  const Space space = make_space(body, cloud.cloud, params);
+
+  LatticeData data = plane_distances(space.lattice, cloud, params.kernel_m, params.reach_m);
+  for (std::size_t i = 0; i < data.value.size(); ++i) data.value[i] = space.body_distance[i] - data.value[i];
+  std::vector<float> ease = diffuse(space.lattice, data, space.domain, params.stiffness, params.sweeps);
+  carve(space, views, ease, params.carve_m, data);
+  ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
+
+  std::vector<float> field(space.lattice.count());
+  tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
+    for (int y = 0; y < space.lattice.size[1]; ++y)
+      for (int x = 0; x < space.lattice.size[0]; ++x) {
+        const std::size_t at = space.lattice.index(x, y, z);
+        const double layer = space.body_distance[at] - (space.domain[at] ? ease[at] : 0.0f);
+        field[at] = static_cast<float>(std::max(layer, body.beyond_ends(space.lattice.point(x, y, z))));
+      }
+  });
+  BallReport report;
+  field = ball_field(space.lattice, std::move(field), report);
+  if (field.empty()) return {};
+  ClosedGarment garment;
+  garment.mesh = tidied(lattice_surface(space.lattice, field), params.edge_m);
+  garment.support = std::move(cloud.cloud);
+  return garment;
+}
+
+// The garment as a layer round the body: its ease, the distance off the covered part of the naked body, is known where
+// views saw cloth and harmonic in between; space that a view sees through is carved; what is inside is shaped into a
+// ball (no webs between arm and torso that close a ring) and its surface is taken with marching tetrahedra.
+ClosedGarments layer(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+                     const Registration& registration, const FilledViews& filled, const LayerParams& params) {
+  const BodyLimbs limbs = find_limbs(naked.body);
+  const MeshQuery query(naked.body);
+  const std::vector<DepthView> views = depth_views(session, calibration, registration);
+  ClosedGarments closed;
+  for (const auto& each : filled.garments) {
+    auto garment = make_garment(each.first, filled, views, session, query, limbs, params);
+    if (garment) closed.garments.emplace(each.first, std::move(*garment));
+  }
+  return closed;
+}
+
+const Surface::Variant variant{"layer", layer};
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,67 @@
+#include "pipeline/surface/surface.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/common/dressed_figure_for_tests.h"
+
+namespace dressform {
+namespace {
+
+const figure::Capture& shirt_and_trousers() {
+  static const figure::Capture capture = figure::capture({});
+  return capture;
+}
+
+ClosedGarments run(const std::string& variant, const figure::Capture& c) {
+  return Surface::at(variant).run(c.session, c.calibration, c.naked, c.registration, c.filled, {}, 1);
+}
+
+// Distances of vertices to the true cloth, ends and their margins left out.
+std::vector<double> errors(const Mesh& mesh, const std::string& garment, const figure::Clothes& c) {
+  std::vector<double> result;
+  for (const Vector3d& v : mesh.vertices) {
+    if (garment == "top") {
+      const double side = v.x() > 0 ? 1 : -1;
+      if (v.y() > c.neck_y - 0.01 || (v.y() < c.hem_y + 0.01 && std::abs(v.x()) < 0.2)) continue;
+      if (figure::along_arm(v, side) > c.sleeve_m - 0.01) continue;
+      result.push_back(std::abs(figure::shirt(v, c)));
+    } else {
+      if (v.y() > c.waist_y - 0.01 || v.y() < c.ankle_y + 0.01) continue;
+      result.push_back(std::abs(figure::bottom(v, c)));
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+class EverySurface : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EverySurface, IsClosedOnePieceAndCloseToTheCloth) {
+  const figure::Capture& capture = shirt_and_trousers();
+  const ClosedGarments closed = run(GetParam(), capture);
+  ASSERT_EQ(closed.garments.size(), 2u);
+  for (const auto& [name, garment] : closed.garments) {
+    const Topology t = topology(garment.mesh);
+    EXPECT_TRUE(t.closed()) << name;
+    EXPECT_EQ(t.components, 1) << name;
+    EXPECT_EQ(t.euler(), 2) << name;
+    EXPECT_EQ(t.vertices, static_cast<int>(garment.mesh.vertices.size())) << name;
+    const auto error = errors(garment.mesh, name, capture.clothes);
+    EXPECT_LT(error[error.size() / 2], 0.0025) << name;
+    EXPECT_LT(error[error.size() * 9 / 10], 0.010) << name;
+    RecordProperty(name + "_median_um", static_cast<int>(1e6 * error[error.size() / 2]));
+    EXPECT_GT(garment.support.points.size(), 1000u);
+    EXPECT_EQ(garment.support.points.size(), garment.support.normals.size());
+    EXPECT_EQ(garment.support.points.size(), garment.support.colors.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, EverySurface, ::testing::ValuesIn(Surface::names()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace dressform
