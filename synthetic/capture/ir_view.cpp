@@ -14,12 +14,13 @@ constexpr float near_m = 0.2f, far_m = 30.0f;
 }  // namespace
 
 IrView::IrView(const RayScene& scene, const RayTable& rays, const Camera& camera, const Isometry3d& world_from_sensor,
-               double depth_offset_m)
+               double depth_offset_m, bool wants_infrared)
     : scene_(scene),
       rays_(rays),
       camera_(camera),
       world_from_sensor_(world_from_sensor),
       depth_offset_m_(depth_offset_m),
+      wants_infrared_(wants_infrared),
       rotation_(world_from_sensor.linear().cast<float>()),
       position_(world_from_sensor.translation().cast<float>()) {}
 

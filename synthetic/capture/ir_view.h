@@ -19,14 +19,16 @@ struct IrSample {
 // The world as one infrared camera stands before it: what a sensor model turns into a measured frame.
 class IrView {
  public:
+  // wants_infrared: false for a scan, of which only the depth is kept; a model may then leave the picture empty.
   IrView(const RayScene& scene, const RayTable& rays, const Camera& camera, const Isometry3d& world_from_sensor,
-         double depth_offset_m);
+         double depth_offset_m, bool wants_infrared = true);
 
   int width() const { return rays_.width(); }
   int height() const { return rays_.height(); }
   const Camera& camera() const { return camera_; }
   const Isometry3d& world_from_sensor() const { return world_from_sensor_; }
   double depth_offset_m() const { return depth_offset_m_; }
+  bool wants_infrared() const { return wants_infrared_; }
   const RayScene& scene() const { return scene_; }
 
   // Ideal image-plane coordinates (x/z, y/z) at a raw pixel position.
@@ -49,6 +51,7 @@ class IrView {
   Camera camera_;
   Isometry3d world_from_sensor_;
   double depth_offset_m_;
+  bool wants_infrared_;
   Eigen::Matrix3f rotation_;
   Vector3f position_;
 };

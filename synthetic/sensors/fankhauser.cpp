@@ -48,7 +48,7 @@ void fields(V& v, FankhauserParams& p) {
 double sigma_mm(double z, double theta) {
   theta = std::min(theta, 1.48);
   const double rest = M_PI / 2 - theta;
-  return 1.5 - 0.5 * z + 0.3 * z * z + 0.1 * std::pow(z, 1.5) * theta * theta / (rest * rest);
+  return 1.5 - 0.5 * z + 0.3 * z * z + 0.1 * z * std::sqrt(z) * theta * theta / (rest * rest);
 }
 
 // Unit normal noise per pixel. A 3 x 3 box over white noise has autocorrelation 2/3, 1/3, 0 along a row.
@@ -96,13 +96,13 @@ class Model {
         noise_(view.width(), view.height(), params.correlated, seed) {}
 
   SensorFrame frame() const {
-    SensorFrame result{cv::Mat(view_.height(), view_.width(), CV_16UC1),
-                       cv::Mat(view_.height(), view_.width(), CV_16UC1)};
+    SensorFrame result{cv::Mat(view_.height(), view_.width(), CV_16UC1), cv::Mat()};
+    if (view_.wants_infrared()) result.ir.create(view_.height(), view_.width(), CV_16UC1);
     tbb::parallel_for(0, view_.height(), [&](int y) {
       for (int x = 0; x < view_.width(); ++x) {
         const Footprint footprint = at_edge(x, y) ? mixed(x, y) : Footprint{hit(x, y)};
         result.depth_mm.at<std::uint16_t>(y, x) = measure(footprint, x, y);
-        result.ir.at<std::uint16_t>(y, x) = infrared(footprint.sample, x, y);
+        if (view_.wants_infrared()) result.ir.at<std::uint16_t>(y, x) = infrared(footprint.sample, x, y);
       }
     });
     return result;
@@ -184,23 +184,24 @@ class Model {
 
   std::uint16_t measure(const Footprint& footprint, int x, int y) const {
     const IrSample& sample = footprint.sample;
-    if (footprint.lost || sample.depth_m <= 0 || hole(sample, x, y)) return 0;
+    if (footprint.lost || sample.depth_m <= 0) return 0;
     const double theta = std::acos(std::clamp(sample.cos_incidence, 0.0f, 1.0f));
+    if (hole(sample, theta, x, y)) return 0;
     const double noise_m = 1e-3 * params_.noise_scale * sigma_mm(sample.depth_m, theta) * noise_.at(x, y);
     return depth_in_mm(sample.depth_m + noise_m, view_.depth_offset_m(), params_.minimum_m, params_.maximum_m);
   }
 
   // Too little light comes back, the surface is seen from its edge, or it is a mirror.
-  bool hole(const IrSample& sample, int x, int y) const {
-    const auto random = uniform4(seed_, stream_of("holes"), index(x, y));
-    if (sample.chrome) return random[0] < params_.chrome_hole;
+  bool hole(const IrSample& sample, double theta, int x, int y) const {
+    if (sample.chrome) return uniform(seed_, stream_of("chrome"), index(x, y)) < params_.chrome_hole;
     const double signal = sample.nir_albedo * sample.cos_incidence / (sample.distance_m * sample.distance_m);
     const double ratio = params_.dropout_signal > 0 ? signal / params_.dropout_signal : 1e6;
-    const double too_dark = 1 / (1 + std::pow(ratio, 5.0));
-    const double theta_deg = std::acos(std::clamp(sample.cos_incidence, 0.0f, 1.0f)) * 180 / M_PI;
+    const double too_dark = 1 / (1 + ratio * ratio * ratio * ratio * ratio);
     const double span_deg = std::max(1e-3, params_.grazing_end_deg - params_.grazing_start_deg);
-    const double too_flat = (theta_deg - params_.grazing_start_deg) / span_deg;
-    return random[1] < too_dark || random[2] < too_flat;
+    const double too_flat = (theta * 180 / M_PI - params_.grazing_start_deg) / span_deg;
+    if (too_dark < 1e-6 && too_flat <= 0) return false;
+    const auto random = uniform4(seed_, stream_of("holes"), index(x, y));
+    return random[0] < too_dark || random[1] < too_flat;
   }
 
   std::uint16_t infrared(const IrSample& sample, int x, int y) const {

@@ -9,7 +9,7 @@ namespace dressform {
 // What a depth sensor delivers for one view.
 struct SensorFrame {
   cv::Mat depth_mm;  // uint16, along the optical axis, 0 = none; measured = true + depth offset
-  cv::Mat ir;        // uint16
+  cv::Mat ir;        // uint16; may be empty where the view wants none
 };
 
 // A depth sensor: turns what its infrared camera stands before into what it measures. Variants: sensors/<model>.cpp.
