@@ -183,11 +183,11 @@ Vector3f RayScene::albedo(int surface, int triangle, float u, float v, float foo
 
 float RayScene::nir_albedo(const HitPacket& hits, int lane) const {
   const int surface = hits.surface[lane];
-  const float plain = surfaces_[surface].material.nir_albedo;
-  if (!details_[surface].texture) return plain;
+  const Material& material = surfaces_[surface].material;
+  if (!details_[surface].texture || material.nir_print == 0) return material.nir_albedo;
   const float luminance =
       albedo(surface, hits.triangle[lane], hits.u[lane], hits.v[lane], 0.006f).dot(Vector3f(0.21f, 0.72f, 0.07f));
-  return plain * (0.85f + 0.3f * luminance);
+  return material.nir_albedo * (1 + material.nir_print * (luminance - 0.5f));
 }
 
 SurfacePoint RayScene::point(const RayPacket& rays, const HitPacket& hits, int lane, float footprint_m) const {

@@ -15,6 +15,7 @@ enum class Label : std::uint8_t { none = 0, skin = 1, top = 2, bottom = 3 };
 struct Material {
   Vector3f albedo_rgb = Vector3f::Constant(0.5f);  // linear; multiplies the texture where there is one
   float nir_albedo = 0.5f;                         // at 860 nm; independent of the visible colour
+  float nir_print = 0;                             // how much of the print's light and dark shows in it
   float gloss = 0;                                 // strength of the highlight
   float gloss_exponent = 40;
   bool chrome = false;                       // a mirror: depth cameras see a hole

@@ -112,14 +112,16 @@ class Model {
   const IrSample& hit(int x, int y) const { return hits_[static_cast<std::size_t>(y) * view_.width() + x]; }
   std::uint64_t index(int x, int y) const { return static_cast<std::uint64_t>(y) * view_.width() + x; }
 
+  // Whether a step in depth lies within a pixel's reach. The second difference is blind to slope: a floor is no edge.
   bool at_edge(int x, int y) const {
-    float least = hit(x, y).depth_m, most = least;
-    for (int yi = std::max(0, y - 1); yi <= std::min(view_.height() - 1, y + 1); ++yi)
-      for (int xi = std::max(0, x - 1); xi <= std::min(view_.width() - 1, x + 1); ++xi) {
-        least = std::min(least, hit(xi, yi).depth_m);
-        most = std::max(most, hit(xi, yi).depth_m);
-      }
-    return most - least > params_.edge_gap_m;
+    const int left = std::max(0, x - 1), right = std::min(view_.width() - 1, x + 1);
+    const int above = std::max(0, y - 1), below = std::min(view_.height() - 1, y + 1);
+    const float twice = 2 * hit(x, y).depth_m;
+    const float gap_m = static_cast<float>(params_.edge_gap_m);
+    return std::abs(hit(left, y).depth_m + hit(right, y).depth_m - twice) > gap_m ||
+           std::abs(hit(x, above).depth_m + hit(x, below).depth_m - twice) > gap_m ||
+           std::abs(hit(left, above).depth_m + hit(right, below).depth_m - twice) > gap_m ||
+           std::abs(hit(right, above).depth_m + hit(left, below).depth_m - twice) > gap_m;
   }
 
   // 4 x 4 rays over the pixel, moved by the lateral noise, split at the widest step in depth. The nearer and the
