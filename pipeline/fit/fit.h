@@ -14,7 +14,7 @@ struct FittedGarments {
   Mesh deformed_body;                            // the naked model moved by the same function
   double body_rms_m = 0;                         // deformed body to user body
   int control_points = 0;
-  int foldovers = 0;                             // triangles whose normal turned by more than 90 degrees
+  int foldovers = 0;  // triangles whose normal turned by more than 90 degrees
 
   template <class Archive>
   void serialize(Archive& archive) {

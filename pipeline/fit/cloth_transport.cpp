@@ -1,0 +1,161 @@
+#include "pipeline/fit/cloth_transport.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dressform {
+namespace {
+
+constexpr double kBin_m = 0.04;
+constexpr int kSectors = 8, kBins = 25, kEnclosing = 7;
+constexpr double kSleeveReach_m = 0.16;  // the widest sleeve, from the arm's axis
+
+// How far down each arm the garment encloses it all round, metres from the armpit.
+std::array<double, 2> sleeve_ends(const Mesh& garment, const StandingBody& naked) {
+  std::array<double, 2> ends{0, 0};
+  for (int side = 0; side < 2; ++side) {
+    const Limb* arm = naked.limbs.arm(side);
+    if (!arm) continue;
+    std::array<std::array<int, kSectors>, kBins> seen{};
+    const Vector3d u = naked.limbs.front.cross(arm->direction).normalized(), v = arm->direction.cross(u);
+    for (const auto& p : garment.vertices) {
+      const double along = arm->along(p);
+      const Vector3d out = p - arm->root - along * arm->direction;
+      if (along < 0 || along >= kBins * kBin_m || out.norm() > kSleeveReach_m) continue;
+      const double angle = std::atan2(out.dot(v), out.dot(u)) / (2 * M_PI) + 1;
+      ++seen[static_cast<int>(along / kBin_m)][static_cast<int>(angle * kSectors) % kSectors];
+    }
+    for (const auto& bin : seen) {
+      if (std::count_if(bin.begin(), bin.end(), [](int n) { return n > 0; }) < kEnclosing) break;
+      ends[side] += kBin_m;
+    }
+  }
+  return ends;
+}
+
+// The body that the garment lies on: without the arms beyond the sleeves, so that a hem beside a hand belongs to the
+// hips.
+struct ClothedBody {
+  Mesh mesh;
+  std::vector<char> arm;  // per triangle
+};
+
+ClothedBody clothed_body(const Mesh& garment, const StandingBody& naked) {
+  const auto ends = sleeve_ends(garment, naked);
+  ClothedBody result;
+  result.mesh.vertices = naked.mesh.vertices;
+  for (std::size_t i = 0; i < naked.mesh.triangles.size(); ++i) {
+    const Vector3i& t = naked.mesh.triangles[i];
+    const BodyPart part = naked.limbs.triangle_parts[i];
+    if (is_arm(part)) {
+      const int side = part == BodyPart::left_arm ? 0 : 1;
+      const Limb* arm = naked.limbs.arm(side);
+      if (arm && arm->along(naked.mesh.vertices[t[0]]) > ends[side] + 0.04) continue;
+    }
+    result.mesh.triangles.push_back(t);
+    result.arm.push_back(is_arm(part));
+  }
+  return result;
+}
+
+struct Anchors {
+  std::vector<Vector3d> body;    // nearest points of the naked body
+  std::vector<double> distance;  // signed, negative inside
+  std::vector<Vector3d> normal;  // of the body there
+  std::vector<double> arm;       // 0-1, diffused
+};
+
+Anchors find_anchors(const Mesh& garment, const ClothedBody& clothed) {
+  const MeshQuery surface(clothed.mesh);
+  const std::size_t count = garment.vertices.size();
+  Anchors anchors{std::vector<Vector3d>(count), std::vector<double>(count), std::vector<Vector3d>(count),
+                  std::vector<double>(count, 0)};
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {
+    const auto closest = surface.closest(garment.vertices[v]);
+    anchors.body[v] = closest.point;
+    anchors.distance[v] = surface.signed_distance(garment.vertices[v], closest);
+    anchors.normal[v] = surface.normal(closest.triangle);
+    anchors.arm[v] = clothed.arm[closest.triangle];
+  });
+  anchors.arm = diffused_weights(garment, std::move(anchors.arm), 20);
+  return anchors;
+}
+
+// Each map where it counts, and nothing evaluated that is weighted by zero.
+std::vector<Vector3d> blended(const BodyWarp& warp, const std::vector<Vector3d>& points,
+                              const std::vector<double>& arm) {
+  std::vector<Vector3d> result(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t v) {
+    const double w = arm[v];
+    if (w <= 0)
+      result[v] = warp.core(points[v]);
+    else if (w >= 1)
+      result[v] = warp.all(points[v]);
+    else
+      result[v] = w * warp.all(points[v]) + (1 - w) * warp.core(points[v]);
+  });
+  return result;
+}
+
+// Where the offset kept at its length would put the vertex.
+Vector3d with_offset(const Anchors& anchors, std::size_t v, const Vector3d& cloth, const Vector3d& body,
+                     const MeshQuery& user_surface) {
+  Vector3d base = body, normal = anchors.normal[v];
+  const auto snapped = user_surface.closest(body, 0.04);
+  if (snapped.triangle >= 0 && user_surface.normal(snapped.triangle).dot(normal) > 0.5) {
+    base = snapped.point;
+    normal = user_surface.normal(snapped.triangle);
+  }
+  const double distance = anchors.distance[v];
+  Vector3d out = distance < 0 ? Vector3d(body - cloth) : Vector3d(cloth - body);
+  // Close to the body the offset's direction is mostly rounding: the normal takes over.
+  const double trust = std::clamp((std::abs(distance) - 0.002) / 0.008, 0.0, 1.0);
+  out = out.norm() > 1e-9 ? Vector3d(trust * out.normalized() + (1 - trust) * normal) : normal;
+  return base + distance * out.normalized();
+}
+
+void diffuse(const Mesh& garment, const std::vector<double>& confidence, int rounds, std::vector<Vector3d>& change) {
+  // Each vertex holds on to its own change as far as the body is near, and takes the rest from its neighbours.
+  const std::vector<Vector3d> wanted = change;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Vector3d> sums(change.size(), Vector3d::Zero());
+    std::vector<double> counts(change.size(), 0);
+    for (const auto& t : garment.triangles)
+      for (int k = 0; k < 3; ++k)
+        for (int j : {1, 2}) {
+          sums[t[k]] += change[t[(k + j) % 3]];
+          counts[t[k]] += 1;
+        }
+    for (std::size_t v = 0; v < change.size(); ++v) {
+      if (counts[v] == 0) continue;
+      const double own = 0.15 * confidence[v];
+      change[v] = own * wanted[v] + (1 - own) * (0.2 * change[v] + 0.8 * sums[v] / counts[v]);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Vector3d> transported(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp,
+                                  const MeshQuery& user_surface, const ClothTransportParams& params) {
+  if (garment.vertices.empty()) return {};
+  const Anchors anchors = find_anchors(garment, clothed_body(garment, naked));
+  std::vector<Vector3d> cloth = blended(warp, garment.vertices, anchors.arm);
+  if (params.keep_offset <= 0) return cloth;
+  const std::vector<Vector3d> body = blended(warp, anchors.body, anchors.arm);
+  std::vector<Vector3d> change(cloth.size());
+  std::vector<double> confidence(cloth.size());
+  tbb::parallel_for(std::size_t{0}, cloth.size(), [&](std::size_t v) {
+    change[v] = with_offset(anchors, v, cloth[v], body[v], user_surface) - cloth[v];
+    const double far = std::abs(anchors.distance[v]) / params.near_m;
+    confidence[v] = 1 / (1 + far * far);
+  });
+  diffuse(garment, confidence, params.diffusion_rounds, change);
+  for (std::size_t v = 0; v < cloth.size(); ++v) cloth[v] += params.keep_offset * change[v];
+  return cloth;
+}
+
+}  // namespace dressform

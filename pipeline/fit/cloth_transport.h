@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "pipeline/fit/body_warp.h"
+
+namespace dressform {
+
+struct ClothTransportParams {
+  double keep_offset = 1;     // 0: the map alone; 1: every point keeps its distance from the body
+  double near_m = 0.06;       // beyond this distance from the body its surface says less about where cloth goes
+  int diffusion_rounds = 40;  // of the change against the map alone, over rings of neighbours
+};
+
+// The garment's vertices on the user. A point of cloth is the nearest point of the naked body and an offset: the map
+// takes the body's point to the user, where it is put on the surface, and the offset keeps its length, so that the
+// difference between the girths of cloth and body stays. The change against the map alone is diffused over the cloth,
+// because nearest points jump between legs and under arms. Sleeves follow the arms as far as they enclose them.
+std::vector<Vector3d> transported(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp,
+                                  const MeshQuery& user_surface, const ClothTransportParams& params);
+
+}  // namespace dressform

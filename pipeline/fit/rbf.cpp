@@ -1,0 +1,86 @@
+// Clothes resized by radial basis functions between the naked mannequin and the user (section 3.6 of the thesis), with
+// control points found on both bodies by the program, and the offset of cloth from body kept.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/fit/body_warp.h"
+#include "pipeline/fit/cloth_transport.h"
+#include "pipeline/fit/fit.h"
+#include "pipeline/fit/fit_result.h"
+#include "pipeline/fit/standing_body.h"
+
+namespace dressform {
+namespace {
+
+struct RbfParams {
+  std::string kernel = "r";
+  double smoothing_m = 0.02;
+  int rounds = 2;
+  double snap_spacing_m = 0.05;
+  double keep_offset = 1;
+};
+template <class V>
+void fields(V& v, RbfParams& p) {
+  v("kernel", p.kernel, {"r", "r3"}, "radial basis function beside the affine part");
+  v("smoothing_m", p.smoothing_m, 0.0, 1.0, "", "how much the map may miss its targets for smoothness");
+  v("rounds", p.rounds, 0, 5, "", "of snapping the warped body to the user's surface");
+  v("snap_spacing_m", p.snap_spacing_m, 0.03, 0.2, "m", "between the body's points that are snapped");
+  v("keep_offset", p.keep_offset, 0.0, 1.0, "",
+    "0: the map alone moves the cloth; 1: cloth keeps its distance from the body");
+}
+
+// The naked model's frame turned and shifted about the vertical to face as the user does and stand where the user does.
+Eigen::Matrix4d user_from_naked(const StandingBody& naked, const StandingBody& user) {
+  Eigen::Matrix3d naked_axes, user_axes;
+  naked_axes << naked.limbs.left, Vector3d::UnitY(), naked.limbs.front;
+  user_axes << user.limbs.left, Vector3d::UnitY(), user.limbs.front;
+  const Eigen::Matrix3d rotation = user_axes * naked_axes.transpose();
+  Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
+  motion.topLeftCorner<3, 3>() = rotation;
+  Vector3d shift = user.axis - rotation * naked.axis;
+  shift.y() = user.limbs.floor_y - naked.limbs.floor_y;
+  motion.topRightCorner<3, 1>() = shift;
+  return motion;
+}
+
+BodyWarpParams warp_params(const RbfParams& params) {
+  BodyWarpParams result;
+  result.kernel = params.kernel == "r" ? RbfField::Kernel::linear : RbfField::Kernel::cubic;
+  result.smoothing = params.smoothing_m;
+  result.rounds = params.rounds;
+  result.snap_spacing_m = params.snap_spacing_m;
+  return result;
+}
+
+FittedGarments rbf(const BodyModel& naked_model, const BodyModel& user_model, const TexturedGarments& clothes,
+                   const RbfParams& params) {
+  require_bodies(naked_model, user_model, "fit.rbf");
+  const StandingBody found = analyse_body(naked_model.body);
+  const StandingBody user = face_alike(found, user_model.body).user;
+  const Eigen::Matrix4d motion = user_from_naked(found, user);
+  StandingBody naked = analyse_body(transformed(found.mesh, motion), user.limbs.front);
+  naked.limbs.front = user.limbs.front;
+  naked.limbs.left = user.limbs.left;
+
+  const MeshQuery naked_surface(naked.mesh), user_surface(user.mesh);
+  const BodyWarp warp = warp_body(naked, naked_surface, user, user_surface, warp_params(params));
+  ClothTransportParams transport;
+  transport.keep_offset = params.keep_offset;
+
+  FittedGarments result;
+  for (const auto& [name, garment] : clothes.garments) {
+    const Mesh turned = transformed(garment.mesh, motion);
+    const Mesh fitted{transported(turned, naked, warp, user_surface, transport), turned.triangles};
+    result.foldovers += count_foldovers(turned, fitted);
+    result.garments[name] = with_vertices(garment, fitted.vertices);
+  }
+  result.deformed_body = warped_body(naked, warp);
+  result.body_rms_m = rms_distance(result.deformed_body, user_surface);
+  result.control_points = warp.control_points;
+  return result;
+}
+
+const Fit::Variant variant{"rbf", rbf};
+
+}  // namespace
+}  // namespace dressform

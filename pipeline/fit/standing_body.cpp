@@ -1,0 +1,165 @@
+#include "pipeline/fit/standing_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "scenes/error.h"
+
+namespace dressform {
+namespace {
+
+constexpr int kBins = 180;  // of 2 degrees
+
+// Crotch height over stature, mean .482 and correlation .86 in ANSUR II: beyond these bounds it is not the crotch.
+constexpr double kLowestCrotch = 0.435, kHighestCrotch = 0.53;
+constexpr double kLowestArmpit = 0.69, kHighestArmpit = 0.80;
+
+double mean_girth_near(const StandingBody& body, double y) {
+  double sum = 0;
+  int count = 0;
+  for (double d = -0.02; d < 0.021; d += 0.01)
+    if (const SectionLoop* loop = body.trunk_loop(y + d)) sum += tape_girth(*loop), ++count;
+  return count ? sum / count : std::numeric_limits<double>::infinity();
+}
+
+// The narrowest height of the trunk; the pull to its middle decides where a belly leaves no waist.
+double find_waist(const StandingBody& body) {
+  double best_y = 0, best = std::numeric_limits<double>::infinity();
+  for (double t = 0.32; t <= 0.72; t += 0.02) {
+    const double y = body.crotch_y + t * (body.armpit_y - body.crotch_y);
+    const double cost = mean_girth_near(body, y) * (1 + 0.8 * (t - 0.5) * (t - 0.5));
+    if (cost >= best) continue;
+    best = cost;
+    best_y = y;
+  }
+  return best_y > 0 ? best_y : 0.5 * (body.crotch_y + body.armpit_y);
+}
+
+// Largest radius about the axis by direction (0 = front), at one part of the stature: of the trunk's loop, or of the
+// two legs below it. Over its mean, so that girth does not matter.
+std::vector<double> outline(const StandingBody& body, double part) {
+  std::vector<double> radius(kBins, 0);
+  const double y = body.limbs.floor_y + part * body.stature;
+  const int level = body.sections.level(y);
+  if (level < 0) return radius;
+  const auto& loops = body.sections.levels[level];
+  const std::size_t used = std::min<std::size_t>(loops.size(), y < body.crotch_y ? 2 : 1);
+  for (std::size_t i = 0; i < used; ++i)
+    for (std::size_t k = 0; k < loops[i].points.size(); ++k) {
+      const Vector3d d = loops[i].points[k] - body.axis;
+      const double angle = std::atan2(d.dot(body.limbs.left), d.dot(body.limbs.front));
+      const int bin = static_cast<int>(std::floor(angle / (2 * M_PI) * kBins + kBins)) % kBins;
+      radius[bin] = std::max(radius[bin], std::hypot(d.x(), d.z()));
+    }
+  for (int i = 0; i < kBins; ++i)  // bins that the mesh's edges stepped over
+    if (radius[i] == 0) radius[i] = std::max(radius[(i + 1) % kBins], radius[(i + kBins - 1) % kBins]);
+  double mean = 0;
+  for (double r : radius) mean += r / kBins;
+  for (double& r : radius) r = mean > 0 ? r / mean : 0;
+  return radius;
+}
+
+using Outlines = std::vector<std::vector<double>>;
+
+Outlines outlines(const StandingBody& body, double from, double to) {
+  Outlines result;
+  for (double part = from; part <= to; part += 0.012) result.push_back(outline(body, part));
+  return result;
+}
+
+// Mean squared difference with the second body turned by each number of bins.
+std::vector<double> differences(const Outlines& a, const Outlines& b) {
+  std::vector<double> result(kBins, 0);
+  const std::size_t levels = std::min(a.size(), b.size());
+  for (int turn = 0; turn < kBins; ++turn)
+    for (std::size_t level = 0; level < levels; ++level)
+      for (int i = 0; i < kBins; ++i) {
+        const double d = a[level][i] - b[level][(i + turn) % kBins];
+        result[turn] += d * d / static_cast<double>(levels * kBins);
+      }
+  return result;
+}
+
+int apart(int a, int b) {
+  const int d = std::abs(a - b) % kBins;
+  return std::min(d, kBins - d);
+}
+
+void turn_front(StandingBody& body, double angle) {
+  const Vector3d front = body.direction(angle);
+  body.limbs.front = front;
+  body.limbs.left = Vector3d::UnitY().cross(front);
+}
+
+// The turn, in bins with a fraction, nearest to `coarse` at which the trunks agree best.
+double refined_turn(const StandingBody& naked, const StandingBody& user, int coarse) {
+  const auto cost = differences(outlines(naked, 0.52, 0.70), outlines(user, 0.52, 0.70));
+  const auto at = [&](int turn) { return cost[(turn + 2 * kBins) % kBins]; };
+  int best = coarse;
+  for (int turn = coarse - 7; turn <= coarse + 7; ++turn)
+    if (at(turn) < at(best)) best = turn;
+  const double before = at(best - 1), here = at(best), after = at(best + 1), bend = before - 2 * here + after;
+  const double fraction = bend > 1e-15 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
+  return best + fraction;
+}
+
+}  // namespace
+
+double tape_girth(const SectionLoop& loop) {
+  std::vector<cv::Point2f> points, hull;
+  for (const auto& p : loop.points) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
+  cv::convexHull(points, hull);
+  return cv::arcLength(hull, true);
+}
+
+const SectionLoop* StandingBody::trunk_loop(double y) const {
+  if (y < sections.first_y || sections.levels.empty()) return nullptr;
+  const auto& level = sections.levels[sections.level(y)];
+  return level.empty() ? nullptr : &level[0];
+}
+
+StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front_hint) {
+  StandingBody body;
+  body.mesh = mesh;
+  body.limbs = find_limbs(mesh, front_hint);
+  body.sections = horizontal_sections(mesh);
+  const double floor = body.limbs.floor_y;
+  body.stature = body.limbs.top_y - floor;
+  body.crotch_y =
+      std::clamp(body.limbs.crotch_y, floor + kLowestCrotch * body.stature, floor + kHighestCrotch * body.stature);
+  body.armpit_y =
+      std::clamp(body.limbs.armpit_y, floor + kLowestArmpit * body.stature, floor + kHighestArmpit * body.stature);
+  body.neck_y = std::clamp(body.limbs.neck_y, floor + 0.80 * body.stature, floor + 0.92 * body.stature);
+  body.waist_y = find_waist(body);
+  int count = 0;
+  for (double y = body.crotch_y; y < body.armpit_y; y += body.sections.step)
+    if (const SectionLoop* loop = body.trunk_loop(y)) body.axis += loop->centroid, ++count;
+  if (count == 0) throw InputError("body", "found no trunk between crotch and armpits; expected a standing body, y up");
+  body.axis /= count;
+  return body;
+}
+
+FacingUser face_alike(const StandingBody& naked, const Mesh& user) {
+  FacingUser result{analyse_body(user), 0, false};
+  const auto cost = differences(outlines(naked, 0.02, 0.90), outlines(result.user, 0.02, 0.90));
+  const int best = static_cast<int>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  double second = std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < kBins; ++turn)
+    if (apart(turn, best) > 20) second = std::min(second, cost[turn]);
+  result.confident = second > 1.15 * cost[best];
+  const double turn = refined_turn(naked, result.user, best);
+  const double angle = turn * 2 * M_PI / kBins;
+  result.turn_deg = std::remainder(angle, 2 * M_PI) * 180 / M_PI;
+  if (std::abs(result.turn_deg) > 90) {  // left and right were taken for one another
+    const Vector3d front = result.user.direction(angle);
+    result.user = analyse_body(user, front);
+    turn_front(result.user, std::atan2(front.dot(result.user.limbs.left), front.dot(result.user.limbs.front)));
+  } else {
+    turn_front(result.user, angle);
+  }
+  return result;
+}
+
+}  // namespace dressform
