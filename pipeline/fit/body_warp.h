@@ -12,7 +12,7 @@ struct BodyWarpParams {
   RbfField::Kernel kernel = RbfField::Kernel::linear;
   double smoothing = 0.02;
   int rounds = 2;                 // of snapping the warped body to the user's surface
-  double snap_spacing_m = 0.05;   // between the body's points that are snapped
+  double snap_spacing_m = 0.06;   // between the body's points that are snapped
   double snap_distance_m = 0.04;  // further is not the same place
   double snap_angle_deg = 60;     // between the normals
 };

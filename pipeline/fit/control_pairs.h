@@ -14,7 +14,7 @@ struct ControlPair {
 };
 
 struct ControlPairParams {
-  int trunk_levels = 16, trunk_angles = 16, limb_levels = 9, limb_angles = 8;
+  int trunk_levels = 14, trunk_angles = 16, limb_levels = 8, limb_angles = 8;
 };
 
 // Pairs at the same part of the way between landmarks and the same direction: rings of rays from the trunk's axis (the

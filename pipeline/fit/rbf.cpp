@@ -16,7 +16,7 @@ struct RbfParams {
   std::string kernel = "r";
   double smoothing_m = 0.02;
   int rounds = 2;
-  double snap_spacing_m = 0.05;
+  double snap_spacing_m = 0.06;
   double keep_offset = 1;
 };
 template <class V>

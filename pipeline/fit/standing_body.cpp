@@ -37,28 +37,24 @@ double find_waist(const StandingBody& body) {
   return best_y > 0 ? best_y : 0.5 * (body.crotch_y + body.armpit_y);
 }
 
-// Largest radius about the axis by direction (0 = front), at one part of the stature: of the trunk's loop, or of the
-// two legs below it. Over its mean, so that girth does not matter.
+// How far the body reaches from the axis in each direction (0 = front), at one part of the stature: the trunk's loop,
+// or the two legs below it. Over its mean, so that girth does not matter.
 std::vector<double> outline(const StandingBody& body, double part) {
-  std::vector<double> radius(kBins, 0);
+  std::vector<double> reach(kBins, 0);
   const double y = body.limbs.floor_y + part * body.stature;
   const int level = body.sections.level(y);
-  if (level < 0) return radius;
+  if (level < 0) return reach;
   const auto& loops = body.sections.levels[level];
   const std::size_t used = std::min<std::size_t>(loops.size(), y < body.crotch_y ? 2 : 1);
-  for (std::size_t i = 0; i < used; ++i)
-    for (std::size_t k = 0; k < loops[i].points.size(); ++k) {
-      const Vector3d d = loops[i].points[k] - body.axis;
-      const double angle = std::atan2(d.dot(body.limbs.left), d.dot(body.limbs.front));
-      const int bin = static_cast<int>(std::floor(angle / (2 * M_PI) * kBins + kBins)) % kBins;
-      radius[bin] = std::max(radius[bin], std::hypot(d.x(), d.z()));
-    }
-  for (int i = 0; i < kBins; ++i)  // bins that the mesh's edges stepped over
-    if (radius[i] == 0) radius[i] = std::max(radius[(i + 1) % kBins], radius[(i + kBins - 1) % kBins]);
+  for (int bin = 0; bin < kBins; ++bin) {
+    const Vector3d direction = body.direction(2 * M_PI * bin / kBins);
+    for (std::size_t i = 0; i < used; ++i)
+      for (const auto& point : loops[i].points) reach[bin] = std::max(reach[bin], direction.dot(point - body.axis));
+  }
   double mean = 0;
-  for (double r : radius) mean += r / kBins;
-  for (double& r : radius) r = mean > 0 ? r / mean : 0;
-  return radius;
+  for (double r : reach) mean += r / kBins;
+  for (double& r : reach) r = mean > 0 ? r / mean : 0;
+  return reach;
 }
 
 using Outlines = std::vector<std::vector<double>>;
@@ -93,9 +89,11 @@ void turn_front(StandingBody& body, double angle) {
   body.limbs.left = Vector3d::UnitY().cross(front);
 }
 
-// The turn, in bins with a fraction, nearest to `coarse` at which the trunks agree best.
-double refined_turn(const StandingBody& naked, const StandingBody& user, int coarse) {
-  const auto cost = differences(outlines(naked, 0.52, 0.70), outlines(user, 0.52, 0.70));
+// The turn, in bins with a fraction, nearest to `coarse` at which the trunks agree best; where they are as round as
+// columns, the rest of the body decides.
+double refined_turn(const StandingBody& naked, const StandingBody& user, const std::vector<double>& whole, int coarse) {
+  auto cost = differences(outlines(naked, 0.52, 0.70), outlines(user, 0.52, 0.70));
+  for (int turn = 0; turn < kBins; ++turn) cost[turn] += 0.1 * whole[turn];
   const auto at = [&](int turn) { return cost[(turn + 2 * kBins) % kBins]; };
   int best = coarse;
   for (int turn = coarse - 7; turn <= coarse + 7; ++turn)
@@ -143,13 +141,15 @@ StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front
 
 FacingUser face_alike(const StandingBody& naked, const Mesh& user) {
   FacingUser result{analyse_body(user), 0, false};
-  const auto cost = differences(outlines(naked, 0.02, 0.90), outlines(result.user, 0.02, 0.90));
+  auto cost = differences(outlines(naked, 0.52, 0.90), outlines(result.user, 0.52, 0.90));
+  const auto feet = differences(outlines(naked, 0.02, 0.08), outlines(result.user, 0.02, 0.08));
+  for (int turn = 0; turn < kBins; ++turn) cost[turn] += 0.2 * feet[turn];
   const int best = static_cast<int>(std::min_element(cost.begin(), cost.end()) - cost.begin());
   double second = std::numeric_limits<double>::infinity();
   for (int turn = 0; turn < kBins; ++turn)
     if (apart(turn, best) > 20) second = std::min(second, cost[turn]);
   result.confident = second > 1.15 * cost[best];
-  const double turn = refined_turn(naked, result.user, best);
+  const double turn = refined_turn(naked, result.user, cost, best);
   const double angle = turn * 2 * M_PI / kBins;
   result.turn_deg = std::remainder(angle, 2 * M_PI) * 180 / M_PI;
   if (std::abs(result.turn_deg) > 90) {  // left and right were taken for one another
