@@ -10,14 +10,10 @@ namespace dressform {
 namespace {
 
 constexpr int kKeyBits = 21, kKeyOffset = 1 << 20;
+constexpr int kTile = 8;
+constexpr std::size_t kLeastFrames = 3;  // that saw something in a block
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
-// What one frame says about one point.
-struct Observation {
-  float distance_m = 0;  // to the plane seen, positive towards the sensor
-  float weight = 0;
-};
 
 // Depth at a sub-pixel place: bilinear where the four pixels hold one surface, else the nearest pixel's; 0 for none.
 float depth_at(const cv::Mat& depth_m, const Vector2f& pixel, float largest_step) {
@@ -36,30 +32,96 @@ float depth_at(const cv::Mat& depth_m, const Vector2f& pixel, float largest_step
   return depth_m.at<float>(v, u);
 }
 
-// Index into the shrunken map under a pixel of the full image.
-int map_index(const DepthMap& map, const Vector2f& pixel, const Camera& camera) {
-  const int shrink = camera.width / map.camera.width;
-  const int x = std::clamp(static_cast<int>(pixel.x() + 0.5f) / shrink, 0, map.camera.width - 1);
-  const int y = std::clamp(static_cast<int>(pixel.y() + 0.5f) / shrink, 0, map.camera.height - 1);
-  return y * map.camera.width + x;
+// What the volume needs to know of a frame, laid out for the inner loop.
+struct FrameView {
+  cv::Mat depth_m;
+  int shrink = 1, width = 0, height = 0;  // of the grid below
+  std::vector<float> along;   // minus normal times ray (of unit z): from a step in depth to one off the plane
+  std::vector<float> weight;  // of an observation; 0: none
+  int tiles_x = 0, tiles_y = 0;
+  std::vector<float> farthest;  // depth in every tile of kTile x kTile grid pixels; 0: none
+  Eigen::Matrix3f rotation;     // sensor from model
+  Vector3f translation;
+};
+
+FrameView frame_view(const cv::Mat& depth_m, const DepthMap& map, const Camera& camera,
+                     const Isometry3d& frame_from_model, double min_cosine) {
+  FrameView view;
+  view.depth_m = depth_m;
+  view.width = map.camera.width;
+  view.height = map.camera.height;
+  view.shrink = camera.width / view.width;
+  view.along.assign(map.points.size(), 0);
+  view.weight.assign(map.points.size(), 0);
+  view.tiles_x = view.width / kTile + 1;
+  view.tiles_y = view.height / kTile + 1;
+  view.farthest.assign(static_cast<std::size_t>(view.tiles_x) * view.tiles_y, 0);
+  view.rotation = frame_from_model.linear().cast<float>();
+  view.translation = frame_from_model.translation().cast<float>();
+  for (int k = 0; k < static_cast<int>(map.points.size()); ++k) {
+    if (!map.has_normal(k)) continue;
+    const Vector3f ray = map.points[k] / map.points[k].z();
+    const float along = -map.normals[k].dot(ray), cosine = along / ray.norm(), sigma_mm = 1e3f * map.sigma_m[k];
+    if (cosine < min_cosine) continue;
+    view.along[k] = along;
+    view.weight[k] = cosine * cosine / (sigma_mm * sigma_mm);
+    float& tile = view.farthest[(k / view.width / kTile) * view.tiles_x + (k % view.width) / kTile];
+    tile = std::max(tile, map.points[k].z());
+  }
+  return view;
 }
 
-bool observe(const cv::Mat& depth_m, const DepthMap& map, const Camera& camera, const Projector& projector,
-             const Vector3f& point, const VolumeOptions& options, Observation& observation) {
+// Whether a ball may hold anything that the frame saw, or that lies in front of it.
+bool may_see(const FrameView& view, const Projector& projector, const Camera& camera, const Vector3f& centre,
+             float radius_m) {
+  if (centre.z() < radius_m + 0.1f) return false;
   Vector2f pixel;
-  if (!projector(point, pixel)) return false;
-  const int index = map_index(map, pixel, camera);
-  if (!map.has_normal(index)) return false;
-  const float depth = depth_at(depth_m, pixel, 0.03f);
-  if (depth == 0) return false;
-  const Vector3f ray = point / point.z(), &normal = map.normals[index];
-  const float along = -normal.dot(ray), cosine = along / ray.norm();
-  if (cosine < options.min_cosine) return false;
-  observation.distance_m = (depth - point.z()) * along;
-  if (observation.distance_m < -options.truncation_m) return false;
-  const float sigma_mm = 1e3f * map.sigma_m[index];
-  observation.weight = cosine * cosine / (sigma_mm * sigma_mm);
-  return true;
+  if (!projector(centre, pixel)) return false;
+  const float reach = (radius_m / centre.z() * static_cast<float>(camera.fx) + 2) / view.shrink;
+  const float u = pixel.x() / view.shrink, v = pixel.y() / view.shrink;
+  const auto tile = [](float c, int count) {
+    return std::clamp(static_cast<int>(std::floor(c)) / kTile, 0, count - 1);
+  };
+  for (int y = tile(v - reach, view.tiles_y); y <= tile(v + reach, view.tiles_y); ++y)
+    for (int x = tile(u - reach, view.tiles_x); x <= tile(u + reach, view.tiles_x); ++x)
+      if (view.farthest[static_cast<std::size_t>(y) * view.tiles_x + x] > centre.z() - radius_m) return true;
+  return false;
+}
+
+// One frame into one block. Rows of voxels are projected at both ends and filled in between: over a block the
+// projection is straight to a few hundredths of a pixel.
+template <class Block>
+void integrate(const FrameView& view, const Projector& projector, const Camera& camera, const Vector3f& origin,
+               const VolumeOptions& options, Block& block) {
+  constexpr int kEdge = BlockVolume::kEdge;
+  const auto voxel_m = static_cast<float>(options.voxel_m), truncation_m = static_cast<float>(options.truncation_m);
+  const Vector3f middle = origin + Vector3f::Constant(0.5f * (kEdge - 1) * voxel_m);
+  if (!may_see(view, projector, camera, view.rotation * middle + view.translation, 0.87f * kEdge * voxel_m)) return;
+  const Vector3f first = view.rotation * origin + view.translation, step = view.rotation.col(0) * voxel_m;
+  const float per_pixel = 1.0f / view.shrink;
+  for (int z = 0, k = 0; z < kEdge; ++z)
+    for (int y = 0; y < kEdge; ++y, k += kEdge) {
+      const Vector3f row = first + (y * view.rotation.col(1) + z * view.rotation.col(2)) * voxel_m;
+      Vector2f begin, end;
+      if (!projector(row, begin) || !projector(row + (kEdge - 1) * step, end)) continue;
+      const Vector2f pixel_step = (end - begin) / (kEdge - 1);
+      for (int x = 0; x < kEdge; ++x) {
+        const Vector2f pixel = begin + x * pixel_step;
+        const int u = std::min(view.width - 1, static_cast<int>((pixel.x() + 0.5f) * per_pixel));
+        const int v = std::min(view.height - 1, static_cast<int>((pixel.y() + 0.5f) * per_pixel));
+        const int index = v * view.width + u;
+        const float weight = view.weight[index];
+        if (weight == 0) continue;
+        const float depth = depth_at(view.depth_m, pixel, 0.03f);
+        if (depth == 0) continue;
+        const float off = (depth - (row.z() + x * step.z())) * view.along[index];
+        if (off < -truncation_m) continue;
+        const float sum = block.weight[k + x] + weight;
+        block.distance[k + x] += (std::min(off, truncation_m) - block.distance[k + x]) * (weight / sum);
+        block.weight[k + x] = sum;
+        ++block.observations[k + x];
+      }
+    }
 }
 
 }  // namespace
@@ -80,11 +142,22 @@ BlockVolume::BlockVolume(const ScanFrames& frames, const Camera& camera,
     : options_(options) {
   allocate(frames, model_from_frame, used, region);
   blocks_.resize(keys_.size());
-  std::vector<Isometry3d> frame_from_model;
-  for (const auto& pose : model_from_frame) frame_from_model.push_back(pose.inverse());
+  std::vector<FrameView> views(frames.count());
+  tbb::parallel_for(0, frames.count(), [&](int i) {
+    if (used[i] && frames.usable[i])
+      views[i] =
+          frame_view(frames.depth_m[i], frames.maps[i], camera, model_from_frame[i].inverse(), options.min_cosine);
+  });
   const Projector projector(camera);
-  tbb::parallel_for(std::size_t{0}, blocks_.size(),
-                    [&](std::size_t b) { integrate(b, frames, camera, projector, frame_from_model, used); });
+  tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+    const Vector3f origin = (block_of(keys_[b]) * kEdge).cast<float>() * static_cast<float>(options_.voxel_m);
+    Block& block = blocks_[b];
+    std::fill(std::begin(block.distance), std::end(block.distance), 0.0f);
+    std::fill(std::begin(block.weight), std::end(block.weight), 0.0f);
+    std::fill(std::begin(block.observations), std::end(block.observations), std::uint16_t{0});
+    for (const FrameView& view : views)
+      if (!view.weight.empty()) integrate(view, projector, camera, origin, options_, block);
+  });
 }
 
 void BlockVolume::allocate(const ScanFrames& frames, const std::vector<Isometry3d>& model_from_frame,
@@ -111,43 +184,11 @@ void BlockVolume::allocate(const ScanFrames& frames, const std::vector<Isometry3
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   });
-  for (const auto& keys : found) keys_.insert(keys_.end(), keys.begin(), keys.end());
-  std::sort(keys_.begin(), keys_.end());
-  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
-}
-
-void BlockVolume::integrate(std::size_t b, const ScanFrames& frames, const Camera& camera, const Projector& projector,
-                            const std::vector<Isometry3d>& frame_from_model, const std::vector<char>& used) {
-  Block& block = blocks_[b];
-  std::fill(std::begin(block.distance), std::end(block.distance), 0.0f);
-  std::fill(std::begin(block.weight), std::end(block.weight), 0.0f);
-  std::fill(std::begin(block.observations), std::end(block.observations), std::uint16_t{0});
-  const auto voxel_m = static_cast<float>(options_.voxel_m), truncation_m = static_cast<float>(options_.truncation_m);
-  const Vector3f origin = (block_of(keys_[b]) * kEdge).cast<float>() * voxel_m;
-  const Vector3f middle = origin + Vector3f::Constant(0.5f * (kEdge - 1) * voxel_m);
-  const float radius = 0.87f * kEdge * voxel_m;
-  for (int i = 0; i < frames.count(); ++i) {
-    if (!used[i] || !frames.usable[i]) continue;
-    const Eigen::Matrix3f rotation = frame_from_model[i].linear().cast<float>();
-    const Vector3f translation = frame_from_model[i].translation().cast<float>();
-    // A block wholly hidden behind what is seen in its direction is passed over at once.
-    const Vector3f centre = rotation * middle + translation;
-    Vector2f pixel;
-    if (!projector(centre, pixel) && centre.z() < radius) continue;
-    const Vector3f step_x = rotation.col(0) * voxel_m, step_y = rotation.col(1) * voxel_m;
-    const Vector3f step_z = rotation.col(2) * voxel_m, first = rotation * origin + translation;
-    for (int z = 0, k = 0; z < kEdge; ++z)
-      for (int y = 0; y < kEdge; ++y)
-        for (int x = 0; x < kEdge; ++x, ++k) {
-          const Vector3f point = first + x * step_x + y * step_y + z * step_z;
-          Observation seen;
-          if (!observe(frames.depth_m[i], frames.maps[i], camera, projector, point, options_, seen)) continue;
-          const float distance = std::min(seen.distance_m, truncation_m), sum = block.weight[k] + seen.weight;
-          block.distance[k] += (distance - block.distance[k]) * (seen.weight / sum);
-          block.weight[k] = sum;
-          ++block.observations[k];
-        }
-  }
+  std::vector<std::uint64_t> all;
+  for (const auto& keys : found) all.insert(all.end(), keys.begin(), keys.end());
+  std::sort(all.begin(), all.end());
+  for (std::size_t k = 0; k + kLeastFrames <= all.size(); ++k)  // what only a few frames claim is noise
+    if (all[k] == all[k + kLeastFrames - 1] && (keys_.empty() || keys_.back() != all[k])) keys_.push_back(all[k]);
 }
 
 const BlockVolume::Block* BlockVolume::find(const Cell& block) const {

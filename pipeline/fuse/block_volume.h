@@ -9,7 +9,7 @@ namespace dressform {
 
 // An upright cylinder in the model frame (y up): where a volume is wanted.
 struct VolumeRegion {
-  double center_x = 0, center_z = 0, radius_m = 1, low_y = -0.05, high_y = 2.5;
+  double center_x = 0, center_z = 0, radius_m = 1, low_y = 0.006, high_y = 2.5;
   bool contains(const Vector3f& p) const {
     const double dx = p.x() - center_x, dz = p.z() - center_z;
     return p.y() > low_y && p.y() < high_y && dx * dx + dz * dz < radius_m * radius_m;
@@ -51,8 +51,6 @@ class BlockVolume {
   static Cell block_of(std::uint64_t key);
   void allocate(const ScanFrames& frames, const std::vector<Isometry3d>& model_from_frame,
                 const std::vector<char>& used, const VolumeRegion& region);
-  void integrate(std::size_t block, const ScanFrames& frames, const Camera& camera, const class Projector& projector,
-                 const std::vector<Isometry3d>& frame_from_model, const std::vector<char>& used);
   const Block* find(const Cell& block) const;
   // Distance and observations of a voxel anywhere; false when it is in no block or was never seen.
   bool read(const Cell& voxel, int least_observations, float& distance) const;

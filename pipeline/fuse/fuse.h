@@ -27,7 +27,7 @@ struct BodyModel {
 
 struct FuseTag {
   static constexpr const char* name = "fuse";
-  static constexpr const char* default_variant = "frame_to_model";
+  static constexpr const char* default_variant = "pose_graph";
 };
 
 // Model frame: metres, y up (gravity, from the floor plane), floor at y = 0, the body's axis at x = z = 0. The heading

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace dressform {
 namespace {
@@ -36,6 +37,12 @@ std::vector<int> sample_directions(const DepthMap& map, int per_direction) {
 }
 
 }  // namespace
+
+const DepthMap& ScanFrames::first_usable() const {
+  for (int i = 0; i < count(); ++i)
+    if (usable[i]) return maps[i];
+  throw std::logic_error("no usable frame");
+}
 
 ScanFrames prepare_frames(const DepthScan& scan, const SensorCalibration& calibration, int samples_per_direction,
                           double max_depth_m) {

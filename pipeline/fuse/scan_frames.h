@@ -13,6 +13,7 @@ struct ScanFrames {
   std::vector<std::vector<int>> samples;  // per frame: indices into its map, spread evenly over directions of normals
   std::vector<char> usable;               // enough depth
   int count() const { return static_cast<int>(maps.size()); }
+  const DepthMap& first_usable() const;  // throws std::logic_error when there is none
 };
 
 // samples_per_direction: how many points of each of the ~200 bins of normal directions are kept (normal-space
