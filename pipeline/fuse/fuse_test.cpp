@@ -1,0 +1,206 @@
+#include "pipeline/fuse/fuse.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "pipeline/common/test_scene.h"
+#include "pipeline/fuse/block_volume.h"
+#include "pipeline/fuse/body_surface.h"
+#include "pipeline/fuse/fuse_scan.h"
+#include "pipeline/fuse/track.h"
+
+namespace dressform {
+namespace {
+
+using test_scene::Figure;
+using test_scene::Scan;
+
+constexpr double kDegrees = 180 / M_PI;
+
+// Largest error of a pose relative to the middle frame: at the figure's centre, and of the rotation.
+struct PoseErrors {
+  double largest_m = 0, largest_deg = 0;
+};
+PoseErrors pose_errors(const std::vector<Isometry3d>& found, const std::vector<Isometry3d>& truth) {
+  const std::size_t middle = truth.size() / 2;
+  const Isometry3d world = truth[middle] * found[middle].inverse();
+  PoseErrors errors;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!found[i].matrix().allFinite()) continue;
+    const Isometry3d error = truth[i] * (world * found[i]).inverse();
+    const Vector3d centre(0, 1, 0);
+    errors.largest_m = std::max(errors.largest_m, (error * centre - centre).norm());
+    errors.largest_deg = std::max(errors.largest_deg, kDegrees * Eigen::AngleAxisd(error.linear()).angle());
+  }
+  return errors;
+}
+
+double median_error_m(const Mesh& body, const Isometry3d& world_from_model, const Figure& figure) {
+  std::vector<double> errors;
+  for (const auto& p : body.vertices) errors.push_back(std::abs(test_scene::distance_to(figure, world_from_model * p)));
+  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+  return errors[errors.size() / 2];
+}
+
+const Scan& noisy_scan() {
+  static const Scan scan =
+      test_scene::walk_round(test_scene::standing_figure(), test_scene::kinect(0.25, -0.015), 120, 390, 1, 7);
+  return scan;
+}
+
+TEST(AlignFrames, RecoversAKnownMotion) {
+  const SensorCalibration calibration = test_scene::kinect(0.5);
+  const Scan scan = test_scene::walk_round(test_scene::standing_figure(), calibration, 3, 6, 0, 1);
+  const ScanFrames frames = prepare_frames(scan.scan, calibration, 30, 4.5);
+  const Projector projector(frames.maps[0].camera);
+  Vector6d off;
+  off << 0.02, -0.01, 0.015, 0.02, -0.015, 0.01;
+  const auto found = align_to_frames(frames, projector, 1, {0, 2}, scan.world_from_sensor,
+                                     exponential(off) * scan.world_from_sensor[1], {{0.1, 0.6, 1}, {0.02, 0.8, 1}}, 15);
+  ASSERT_TRUE(found.converged);
+  const Isometry3d error = scan.world_from_sensor[1].inverse() * found.world_from_frame;
+  EXPECT_LT(error.translation().norm(), 0.002);
+  EXPECT_LT(kDegrees * Eigen::AngleAxisd(error.linear()).angle(), 0.06);
+}
+
+TEST(AlignFrames, DoesNotConvergeOnNothing) {
+  const SensorCalibration calibration = test_scene::kinect(0.25);
+  Scan scan = test_scene::walk_round(test_scene::standing_figure(), calibration, 2, 6, 0, 1);
+  const ScanFrames frames = prepare_frames(scan.scan, calibration, 30, 4.5);
+  const Isometry3d away = scan.world_from_sensor[0] * Eigen::AngleAxisd(M_PI, Vector3d::UnitY());
+  EXPECT_FALSE(align_to_frames(frames, Projector(frames.maps[0].camera), 1, {0}, scan.world_from_sensor, away,
+                               {{0.02, 0.8, 1}}, 5)
+                   .converged);
+}
+
+TEST(Track, WalkRoundIsFollowedAndItsLoopClosed) {
+  const SensorCalibration calibration = test_scene::kinect(0.25, -0.015);
+  const ScanFrames frames = prepare_frames(noisy_scan().scan, calibration, 30, 4.5);
+  const Projector projector(frames.maps[0].camera);
+  const Track open = track_odometry(frames, projector);
+  EXPECT_EQ(open.count_tracked(), 120);
+  const Track closed = close_loop(frames, projector, open);
+  EXPECT_TRUE(closed.loop_found);
+  EXPECT_GT(closed.loop_closure_m, 0);
+  EXPECT_LT(pose_errors(closed.world_from_frame, noisy_scan().world_from_sensor).largest_m, 0.02);
+  EXPECT_LT((axes_crossing(closed) - closed.world_from_frame[0] * Vector3d(0, 0, 1.9)).norm(), 0.15);
+}
+
+TEST(BlockVolume, SphereFromKnownPoses) {
+  Figure ball;
+  ball.parts = {{{0, 1, 0}, {.3, .3, .3}}};
+  ball.floor = false;
+  const SensorCalibration calibration = test_scene::kinect(0.5, 0.01);
+  const Scan scan = test_scene::walk_round(ball, calibration, 30, 350, 1, 3);
+  const ScanFrames frames = prepare_frames(scan.scan, calibration, 30, 4.5);
+  const std::vector<char> used(30, 1);
+  const BlockVolume volume(frames, calibration.ir, scan.world_from_sensor, used, {}, {});
+  const PointCloud points = volume.surface_points(3);
+  ASSERT_GT(points.points.size(), 10000u);
+  double sum = 0;
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    const Vector3d outward = points.points[i] - Vector3d(0, 1, 0);
+    sum += outward.norm() - 0.3;
+    EXPECT_LT(std::abs(outward.norm() - 0.3), 0.008);
+    EXPECT_GT(outward.normalized().dot(points.normals[i]), 0.5);
+  }
+  EXPECT_LT(std::abs(sum / points.points.size()), 3e-4);
+}
+
+TEST(BodySurface, ClosesSolesAndLeavesOutWhatStandsApart) {
+  PointCloud cloud;
+  const auto add_ball = [&](const Vector3d& centre, double radius) {
+    for (int i = 0; i < 20000; ++i) {
+      const auto n = normal4(3, 4, i);
+      const Vector3d out = Vector3d(n[0], n[1], n[2]).normalized();
+      const Vector3d p = centre + radius * out;
+      if (p.y() < 0.001) continue;
+      cloud.points.push_back(p);
+      cloud.normals.push_back(out);
+    }
+  };
+  add_ball({0, 0.2, 0}, 0.25);   // cut by the floor: its underside is never seen
+  add_ball({0.6, 0.2, 0}, 0.1);  // a pot beside it
+  const BodySurfaceOptions options;
+  const PointCloud body = body_points(cloud, 0, 0, options);
+  for (const auto& p : body.points) EXPECT_LT(p.x(), 0.3);
+  const Mesh mesh = closed_body(body, options);
+  const Topology shape = topology(mesh);
+  EXPECT_TRUE(shape.closed());
+  EXPECT_EQ(shape.euler(), 2);
+  for (const auto& p : mesh.vertices) EXPECT_GT(p.y(), -0.01);
+  EXPECT_TRUE(closed_body({}, options).triangles.empty());
+}
+
+class EveryFuse : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryFuse, BodyOfAWalkRound) {
+  const SensorCalibration calibration = test_scene::kinect(0.25, -0.015);
+  const BodyModel model = Fuse::at(GetParam()).run(noisy_scan().scan, calibration, {}, 1);
+  EXPECT_TRUE(model.converged);
+  EXPECT_EQ(model.frames_used, 120);
+  ASSERT_EQ(model.model_from_frame.size(), 120u);
+  const bool best = GetParam() == "pose_graph";
+  const PoseErrors errors = pose_errors(model.model_from_frame, noisy_scan().world_from_sensor);
+  EXPECT_LT(errors.largest_m, best ? 0.003 : 0.03);
+  EXPECT_LT(errors.largest_deg, best ? 0.3 : 2.0);
+  const Isometry3d world_from_model = noisy_scan().world_from_sensor[60] * model.model_from_frame[60].inverse();
+  EXPECT_LT(median_error_m(model.body, world_from_model, test_scene::standing_figure()), best ? 0.002 : 0.006);
+  EXPECT_LT(kDegrees * std::acos((world_from_model.linear() * Vector3d::UnitY()).y()), best ? 0.15 : 1);  // gravity
+  EXPECT_LT(std::abs(world_from_model.translation().y()), best ? 0.002 : 0.02);                           // floor y = 0
+  EXPECT_LT((world_from_model * Vector3d(0, 0, 0)).norm(), 0.05);                                         // axis
+  EXPECT_TRUE(topology(model.body).closed());
+  EXPECT_EQ(topology(model.body).components, 1);
+  EXPECT_GT(model.surroundings.points.size(), 10000u);
+}
+
+TEST_P(EveryFuse, SameBytesWithOneAndTwoThreads) {
+  const SensorCalibration calibration = test_scene::kinect(0.25, -0.015);
+  DepthScan scan = noisy_scan().scan;
+  scan.depth_mm.resize(20);
+  std::vector<BodyModel> models;
+  for (const std::size_t threads : {1, 2, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    models.push_back(Fuse::at(GetParam()).run(scan, calibration, {}, 1));
+  }
+  for (const int k : {1, 2}) {
+    EXPECT_EQ(models[k].body.vertices, models[0].body.vertices);
+    EXPECT_EQ(models[k].body.triangles, models[0].body.triangles);
+    EXPECT_EQ(models[k].surroundings.points, models[0].surroundings.points);
+    for (std::size_t i = 0; i < 20; ++i)
+      EXPECT_EQ(models[k].model_from_frame[i].matrix(), models[0].model_from_frame[i].matrix());
+  }
+}
+
+TEST_P(EveryFuse, DroppedFramesHaveNoPose) {
+  const SensorCalibration calibration = test_scene::kinect(0.25, -0.015);
+  DepthScan scan = noisy_scan().scan;
+  scan.depth_mm.resize(30);
+  scan.depth_mm[11] = scan.depth_mm[12] = cv::Mat::zeros(scan.depth_mm[0].size(), CV_16U);
+  const BodyModel model = Fuse::at(GetParam()).run(scan, calibration, {}, 1);
+  EXPECT_EQ(model.frames_used, 28);
+  EXPECT_FALSE(model.model_from_frame[11].matrix().allFinite());
+  EXPECT_TRUE(model.model_from_frame[13].matrix().allFinite());
+}
+
+TEST_P(EveryFuse, RefusesAScanWithoutDepth) {
+  const SensorCalibration calibration = test_scene::kinect(0.25);
+  DepthScan scan;
+  scan.sensor = "handheld";
+  EXPECT_THROW(Fuse::at(GetParam()).run(scan, calibration, {}, 1), InputError);
+  scan.depth_mm.assign(40, cv::Mat::zeros(calibration.ir.height, calibration.ir.width, CV_16U));
+  EXPECT_THROW(Fuse::at(GetParam()).run(scan, calibration, {}, 1), InputError);
+  scan.depth_mm.assign(40, cv::Mat::zeros(7, 9, CV_16U));
+  EXPECT_THROW(Fuse::at(GetParam()).run(scan, calibration, {}, 1), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, EveryFuse, testing::ValuesIn(Fuse::names()),
+                         [](const auto& info) { return info.param; });
+
+TEST(FuseVariants, AreTheFilesOfTheFolder) {
+  EXPECT_EQ(Fuse::names(), (std::vector<std::string>{"frame_to_frame", "pose_graph"}));
+  EXPECT_NO_THROW(Fuse::at(FuseTag::default_variant));
+}
+
+}  // namespace
+}  // namespace dressform
