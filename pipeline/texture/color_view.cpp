@@ -78,10 +78,9 @@ cv::Mat blurred_within(const cv::Mat& color, const cv::Mat& trust, double sigma_
 }
 
 cv::Mat float_color(const cv::Mat& color, double denoise_levels) {
-  cv::Mat result = color;
-  if (denoise_levels > 0) cv::bilateralFilter(color, result, 5, denoise_levels, 1.5);
-  cv::Mat converted;
-  result.convertTo(converted, CV_32FC3);
+  cv::Mat smooth, converted;
+  if (denoise_levels > 0) cv::bilateralFilter(color, smooth, 5, denoise_levels, 1.5);
+  (denoise_levels > 0 ? smooth : color).convertTo(converted, CV_32FC3);
   return converted;
 }
 

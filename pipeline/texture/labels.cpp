@@ -68,9 +68,9 @@ Labels best_view_labels(const Mesh& mesh, const VertexSamples& samples, const La
   return labels_from(mesh, samples, params, alpha_expansion(costs_of(mesh, samples, params), {}));
 }
 
-Labels label_triangles(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<ColorView>& views,
-                       const VertexSamples& samples, const LabelParams& params) {
-  if (views.empty() || mesh.triangles.empty()) return best_view_labels(mesh, samples, params);
+Labels label_triangles(const Mesh& mesh, const SurfaceGraph& graph, const VertexSamples& samples,
+                       const LabelParams& params) {
+  if (samples.trust.cols() == 0 || mesh.triangles.empty()) return best_view_labels(mesh, samples, params);
   Eigen::MatrixXd costs = costs_of(mesh, samples, params);
   for (Eigen::Index i = 0; i < costs.rows(); ++i) costs.row(i) *= graph.triangle_area_m2[i];
   std::vector<PottsEdge> seams;
@@ -80,6 +80,23 @@ Labels label_triangles(const Mesh& mesh, const SurfaceGraph& graph, const std::v
     seams.push_back({edge.left, edge.right, edge.length_m * params.smoothness_m * contrast});
   }
   return labels_from(mesh, samples, params, alpha_expansion(costs, seams));
+}
+
+Labels sector_labels(const Mesh& mesh, const std::vector<ColorView>& views, const VertexSamples& samples,
+                     const LabelParams& params) {
+  if (views.empty() || mesh.triangles.empty()) return best_view_labels(mesh, samples, params);
+  Vector3d axis = Vector3d::Zero();
+  for (const Vector3d& v : mesh.vertices) axis += v / static_cast<double>(mesh.vertices.size());
+  const auto level = [&](const Vector3d& p) { return Vector2d(p.x() - axis.x(), p.z() - axis.z()).normalized(); };
+  std::vector<int> chosen;
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector2d outwards = level((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
+    int best = 0;
+    for (int i = 1; i < static_cast<int>(views.size()); ++i)
+      if (outwards.dot(level(views[i].eye)) > outwards.dot(level(views[best].eye))) best = i;
+    chosen.push_back(best);
+  }
+  return labels_from(mesh, samples, params, chosen);
 }
 
 }  // namespace dressform

@@ -19,10 +19,15 @@ struct Labels {
 
 // Which view colours which triangle: the least sum of obliqueness times area and of seams, by alpha expansion
 // (Boykov, Veksler and Zabih, PAMI 2001; Lempitsky and Ivanov, CVPR 2007).
-Labels label_triangles(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<ColorView>& views,
-                       const VertexSamples& samples, const LabelParams& params);
+Labels label_triangles(const Mesh& mesh, const SurfaceGraph& graph, const VertexSamples& samples,
+                       const LabelParams& params);
 
 // Each triangle from the view that sees it best, whatever its neighbours do.
 Labels best_view_labels(const Mesh& mesh, const VertexSamples& samples, const LabelParams& params);
+
+// The view towards which the surface lies as seen from the garment's upright axis, visible or not: the mesh cut in
+// as many sectors as there are views.
+Labels sector_labels(const Mesh& mesh, const std::vector<ColorView>& views, const VertexSamples& samples,
+                     const LabelParams& params);
 
 }  // namespace dressform

@@ -39,6 +39,21 @@ float facing_factor(float facing) {
   return t * t * (3 - 2 * t);
 }
 
+// Known colours averaged over a hand's breadth of known surface, so that a piece of print at the edge of what was seen
+// is not drawn out over the unseen.
+Eigen::MatrixXf plain_colors(const SurfaceGraph& graph, Eigen::MatrixXf colors, const std::vector<bool>& known) {
+  constexpr double kReachM = 0.04;
+  Eigen::MatrixXf weighted(colors.rows(), 4);
+  for (Eigen::Index v = 0; v < colors.rows(); ++v) {
+    const float weight = known[v] ? 1.f : 0.f;
+    weighted.row(v) << weight * colors.row(v), weight;
+  }
+  weighted = spread_over_surface(graph, std::move(weighted), kReachM);
+  for (Eigen::Index v = 0; v < colors.rows(); ++v)
+    if (known[v]) colors.row(v) = weighted.row(v).head<3>() / weighted(v, 3);
+  return colors;
+}
+
 Eigen::MatrixXf filled_vertex_colors(const SurfaceGraph& graph, const VertexSamples& samples,
                                      const BlendWeights& weights) {
   const Eigen::Index count = samples.trust.rows();
@@ -57,7 +72,7 @@ Eigen::MatrixXf filled_vertex_colors(const SurfaceGraph& graph, const VertexSamp
     known[v] = best > kSomeTrust;
     if (known[v]) colors.row(v) = color / sum;
   }
-  return fill_over_surface(graph, std::move(colors), known);
+  return fill_over_surface(graph, plain_colors(graph, std::move(colors), known), known);
 }
 
 class Painter {
