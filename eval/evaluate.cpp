@@ -1,0 +1,33 @@
+#include "eval/evaluate.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include "eval/evaluate_parts.h"
+#include "scenes/error.h"
+
+namespace dressform {
+
+Scores evaluate(const RunOutputs& outputs, const GroundTruth& truth, const EvaluateOptions& options) {
+  if (truth.world_from_sensor.empty()) throw InputError("truth", "has no sensors; expected their poses");
+  const std::string gauge =
+      options.gauge_sensor.empty() ? truth.world_from_sensor.begin()->first : options.gauge_sensor;
+  if (!truth.world_from_sensor.count(gauge)) throw InputError("truth", "has no sensor \"" + gauge + "\"");
+  const auto world_from_model = evaluation::world_from_model(outputs, truth, gauge);
+  std::vector<std::vector<ScoreRow>> parts(8);  // in the order of the stages
+  tbb::parallel_invoke(
+      [&] { parts[0] = evaluation::bodies(outputs, truth, world_from_model, options); },
+      [&] { parts[1] = evaluation::registration(outputs, truth, world_from_model, gauge, options.seed); },
+      [&] { parts[2] = evaluation::labels(outputs, truth); },
+      [&] { parts[3] = evaluation::surfaces(outputs, truth, world_from_model, options); },
+      [&] { parts[4] = evaluation::openings(outputs, truth, world_from_model); },
+      [&] {
+        if (options.pictures) parts[5] = evaluation::textures(outputs, truth, world_from_model);
+      },
+      [&] { parts[6] = evaluation::fit(outputs, truth); },
+      [&] { parts[7] = evaluation::correction(outputs, truth, options.seed); });
+  Scores scores;
+  for (const auto& part : parts) scores.rows.insert(scores.rows.end(), part.begin(), part.end());
+  return scores;
+}
+
+}  // namespace dressform

@@ -1,0 +1,69 @@
+#include "eval/held_out.h"
+
+#include <opencv2/core.hpp>
+
+#include "eval/metrics/label_metrics.h"
+#include "eval/metrics/sampling.h"
+
+namespace dressform {
+using namespace metrics;
+
+namespace {
+
+constexpr int kWidth = 400, kHeight = 500;  // about the resolution of the colour cameras on the garment
+struct Place {
+  double azimuth_deg, elevation_deg;
+};
+constexpr Place kPlaces[] = {{45, 10}, {135, 20}, {225, 10}, {315, 20}};
+
+}  // namespace
+
+HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth) {
+  Eigen::AlignedBox3d box;
+  for (const auto& vertex : truth.mesh.vertices) box.extend(vertex);
+  RenderItem of_estimate, of_truth;
+  of_estimate.textured = &estimate;
+  of_truth.textured = &truth;
+  of_estimate.shading = of_truth.shading = Shading::unlit;
+  RenderOptions options;
+  options.background.setConstant(0.5f);
+  HeldOutViews views;
+  for (const auto& place : kPlaces) {
+    const RenderView view = look_at_box(box.min(), box.max(), place.azimuth_deg, place.elevation_deg, kWidth, kHeight);
+    views.estimates.push_back(renderer.render(view, {of_estimate}, options));
+    views.truths.push_back(renderer.render(view, {of_truth}, options));
+    views.estimate_masks.push_back(renderer.mask(view, {of_estimate}));
+    views.truth_masks.push_back(renderer.mask(view, {of_truth}));
+  }
+  return views;
+}
+
+HeldOutScores compare_views(const HeldOutViews& views) {
+  HeldOutScores scores;
+  const auto count = static_cast<double>(views.truths.size());
+  std::vector<cv::Mat> both;
+  for (std::size_t i = 0; i < views.truths.size(); ++i) both.push_back(views.estimate_masks[i] & views.truth_masks[i]);
+  scores.gain = gain_to_match(views.estimates, views.truths, both);
+  std::vector<double> differences;
+  double squares = 0, values = 0;
+  for (std::size_t i = 0; i < views.truths.size(); ++i) {
+    const cv::Mat &truth = views.truths[i], either = views.estimate_masks[i] | views.truth_masks[i];
+    cv::Mat adjusted = views.estimates[i].clone();
+    with_gain(views.estimates[i], scores.gain).copyTo(adjusted, views.estimate_masks[i]);  // the background stays
+    scores.ssim += masked_ssim(adjusted, truth, either) / count;
+    scores.ssim_raw += masked_ssim(views.estimates[i], truth, either) / count;
+    scores.silhouette_iou += label_iou(views.estimate_masks[i], views.truth_masks[i], 255) / count;
+    const auto differ = color_differences(adjusted, truth, both[i]);
+    differences.insert(differences.end(), differ.begin(), differ.end());
+    squares += std::pow(cv::norm(adjusted, truth, cv::NORM_L2, both[i]), 2);
+    values += 3.0 * cv::countNonZero(both[i]);
+  }
+  // 100 dB stands for equal pictures.
+  scores.psnr_db = std::min(100.0, 10 * std::log10(255.0 * 255.0 * values / squares));
+  scores.de2000_mean = mean(differences);
+  scores.de2000_p95 = quantile(differences, 0.95);
+  scores.pixels = static_cast<long>(differences.size());
+  return scores;
+}
+
+}  // namespace dressform

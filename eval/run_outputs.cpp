@@ -1,0 +1,63 @@
+#include <tbb/parallel_for_each.h>
+
+#include <functional>
+#include <vector>
+
+#include "eval/evaluate.h"
+#include "scenes/image_file.h"
+#include "scenes/json_file.h"
+#include "scenes/mesh_io.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_registration(const fs::path& file, RunOutputs& outputs) {
+  const JsonValue json = read_json(file);
+  const JsonValue poses = json.at("model_from_sensor"), converged = json.at("converged");
+  for (const auto& name : poses.names()) outputs.model_from_sensor[name] = poses.at(name).rigid();
+  for (const auto& name : converged.names()) outputs.converged[name] = converged.at(name).flag();
+  if (json.has("user_model_from_frame0")) outputs.user_model_from_frame0 = json.at("user_model_from_frame0").rigid();
+}
+
+void read_labels(const fs::path& folder, RunOutputs& outputs) {
+  if (!fs::is_directory(folder)) return;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".png")
+      outputs.labels[entry.path().stem().string()] = read_image(entry.path(), kIndexImage);
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+RunOutputs read_run_outputs(const fs::path& run_folder) {
+  const fs::path out = run_folder / "out";
+  RunOutputs outputs;
+  read_registration(out / "registration.json", outputs);
+  std::vector<std::function<void()>> jobs;
+  const auto mesh = [&](const fs::path& file, Mesh& target) {
+    if (fs::exists(file)) jobs.push_back([file, &target] { target = read_mesh(file); });
+  };
+  mesh(out / "naked_body.ply", outputs.naked_body);
+  mesh(out / "user_body.ply", outputs.user_body);
+  for (const std::string slot : {"top", "bottom"}) {
+    if (!fs::exists(out / (slot + ".ply"))) continue;
+    GarmentOutput& garment = outputs.garments[slot];
+    mesh(out / (slot + ".ply"), garment.mesh);
+    mesh(out / (slot + "_fitted.ply"), garment.fitted);
+    const fs::path glb = out / (slot + ".glb");
+    if (fs::exists(glb)) jobs.push_back([glb, &garment] { garment.textured = read_textured_mesh(glb); });
+  }
+  tbb::parallel_for_each(jobs.begin(), jobs.end(), [](const auto& job) { job(); });
+  read_labels(out / "labels", outputs);
+  if (fs::is_directory(run_folder / "stages"))
+    for (const auto& stage : fs::directory_iterator(run_folder / "stages"))
+      if (ends_with(stage.path().filename().string(), "_segment")) read_labels(stage.path(), outputs);
+  return outputs;
+}
+
+}  // namespace dressform
