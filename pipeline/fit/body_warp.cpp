@@ -7,6 +7,8 @@
 #include <map>
 #include <tuple>
 
+#include "pipeline/common/sleeves.h"
+
 namespace dressform {
 namespace {
 
@@ -74,8 +76,6 @@ std::vector<ControlPair> snapped_pairs(const StandingBody& naked, const std::vec
 }
 
 }  // namespace
-
-bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
 
 BodyWarp warp_body(const StandingBody& naked, const MeshQuery& naked_surface, const StandingBody& user,
                    const MeshQuery& user_surface, const BodyWarpParams& params) {

@@ -35,6 +35,4 @@ Mesh warped_body(const StandingBody& naked, const BodyWarp& warp);
 // How much the map of all controls counts at each vertex (1 on the arms), spread over `rounds` rings of neighbours.
 std::vector<double> diffused_weights(const Mesh& mesh, std::vector<double> weights, int rounds);
 
-bool is_arm(BodyPart part);
-
 }  // namespace dressform

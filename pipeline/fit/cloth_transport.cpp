@@ -3,38 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "pipeline/common/sleeves.h"
 
 namespace dressform {
 namespace {
-
-constexpr double kBin_m = 0.04;
-constexpr int kSectors = 8, kBins = 25, kEnclosing = 7;
-constexpr double kSleeveReach_m = 0.16;  // the widest sleeve, from the arm's axis
-
-// How far down each arm the garment encloses it all round, metres from the armpit.
-std::array<double, 2> sleeve_ends(const Mesh& garment, const StandingBody& naked) {
-  std::array<double, 2> ends{0, 0};
-  for (int side = 0; side < 2; ++side) {
-    const Limb* arm = naked.limbs.arm(side);
-    if (!arm) continue;
-    std::array<std::array<int, kSectors>, kBins> seen{};
-    const Vector3d u = naked.limbs.front.cross(arm->direction).normalized(), v = arm->direction.cross(u);
-    for (const auto& p : garment.vertices) {
-      const double along = arm->along(p);
-      const Vector3d out = p - arm->root - along * arm->direction;
-      if (along < 0 || along >= kBins * kBin_m || out.norm() > kSleeveReach_m) continue;
-      const double angle = std::atan2(out.dot(v), out.dot(u)) / (2 * M_PI) + 1;
-      ++seen[static_cast<int>(along / kBin_m)][static_cast<int>(angle * kSectors) % kSectors];
-    }
-    for (const auto& bin : seen) {
-      if (std::count_if(bin.begin(), bin.end(), [](int n) { return n > 0; }) < kEnclosing) break;
-      ends[side] += kBin_m;
-    }
-  }
-  return ends;
-}
 
 // The body that the garment lies on: without the arms beyond the sleeves, so that a hem beside a hand belongs to the
 // hips.
@@ -44,19 +18,13 @@ struct ClothedBody {
 };
 
 ClothedBody clothed_body(const Mesh& garment, const StandingBody& naked) {
-  const auto ends = sleeve_ends(garment, naked);
+  const auto bare = bare_arm_triangles(naked.mesh, naked.limbs, garment, 0.04);
   ClothedBody result;
   result.mesh.vertices = naked.mesh.vertices;
-  for (std::size_t i = 0; i < naked.mesh.triangles.size(); ++i) {
-    const Vector3i& t = naked.mesh.triangles[i];
-    const BodyPart part = naked.limbs.triangle_parts[i];
-    if (is_arm(part)) {
-      const int side = part == BodyPart::left_arm ? 0 : 1;
-      const Limb* arm = naked.limbs.arm(side);
-      if (arm && arm->along(naked.mesh.vertices[t[0]]) > ends[side] + 0.04) continue;
-    }
-    result.mesh.triangles.push_back(t);
-    result.arm.push_back(is_arm(part));
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    if (bare[i]) continue;
+    result.mesh.triangles.push_back(naked.mesh.triangles[i]);
+    result.arm.push_back(is_arm(naked.limbs.triangle_parts[i]));
   }
   return result;
 }

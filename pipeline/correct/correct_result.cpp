@@ -1,0 +1,31 @@
+#include "pipeline/correct/correct_result.h"
+
+#include <algorithm>
+
+#include "scenes/error.h"
+
+namespace dressform {
+
+void add_corrected(const std::string& name, const TexturedMesh& before, std::vector<Vector3d> vertices,
+                   int intersecting_pairs, CorrectedGarments& result) {
+  int moved = 0;
+  double largest = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const double move = (vertices[v] - before.mesh.vertices[v]).norm();
+    moved += move > 0;
+    largest = std::max(largest, move);
+  }
+  TexturedMesh after = before;
+  after.texture = before.texture.clone();
+  after.mesh.vertices = std::move(vertices);
+  result.garments[name] = std::move(after);
+  result.moved_vertices[name] = moved;
+  result.largest_move_m[name] = largest;
+  result.intersecting_pairs[name] = intersecting_pairs;
+}
+
+void require_user(const BodyModel& user, const std::string& variant) {
+  if (user.body.triangles.empty()) throw InputError(variant, "the user's model has no surface; expected a closed body");
+}
+
+}  // namespace dressform

@@ -1,0 +1,68 @@
+// The thesis's correction (section 3.6): the nearest centroid of the body's faces says by its normal whether a vertex
+// of cloth is inside. Its text pushes along the vector from the centroid to the vertex, which leads deeper; here the
+// vertex goes out along the normal, to the wanted distance from the face's plane.
+#include <tbb/parallel_for.h>
+
+#include <nanoflann.hpp>
+
+#include "pipeline/common/intersections.h"
+#include "pipeline/correct/correct_result.h"
+
+namespace dressform {
+namespace {
+
+struct ThesisCentroidParams {
+  double gap_m = 0.003;
+};
+template <class V>
+void fields(V& v, ThesisCentroidParams& p) {
+  v("gap_m", p.gap_m, 0.0, 0.02, "m", "distance from the face's plane to which vertices inside are pushed");
+}
+
+struct Faces {
+  std::vector<Vector3d> centroids, normals;
+
+  explicit Faces(const Mesh& mesh) {
+    for (const auto& t : mesh.triangles) {
+      const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+      const Vector3d normal = (b - a).cross(c - a);
+      if (normal.norm() <= 0) continue;
+      centroids.push_back((a + b + c) / 3);
+      normals.push_back(normal.normalized());
+    }
+  }
+  std::size_t kdtree_get_point_count() const { return centroids.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return centroids[i][static_cast<int>(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Faces>, Faces, 3>;
+
+CorrectedGarments thesis_centroid(const BodyModel& user, const FittedGarments& fitted,
+                                  const ThesisCentroidParams& params) {
+  require_user(user, "correct.thesis_centroid");
+  const Faces faces(user.body);
+  Tree tree(3, faces);
+  tree.buildIndex();
+  CorrectedGarments result;
+  for (const auto& [name, garment] : fitted.garments) {
+    Mesh moved = garment.mesh;
+    tbb::parallel_for(std::size_t{0}, moved.vertices.size(), [&](std::size_t v) {
+      std::uint32_t nearest = 0;
+      double squared_distance = 0;
+      if (tree.knnSearch(moved.vertices[v].data(), 1, &nearest, &squared_distance) == 0) return;
+      const double height = faces.normals[nearest].dot(moved.vertices[v] - faces.centroids[nearest]);
+      if (height < 0) moved.vertices[v] += (params.gap_m - height) * faces.normals[nearest];
+    });
+    const auto pairs = static_cast<int>(intersecting_pairs(moved, user.body).size());
+    add_corrected(name, garment, std::move(moved.vertices), pairs, result);
+  }
+  return result;
+}
+
+const Correct::Variant variant{"thesis_centroid", thesis_centroid};
+
+}  // namespace
+}  // namespace dressform
