@@ -3,8 +3,14 @@
 namespace dressform {
 namespace {
 
-struct BestViewParams {
+ViewParams as_photographed() {
   ViewParams view;
+  view.denoise = 0;
+  return view;
+}
+
+struct BestViewParams {
+  ViewParams view = as_photographed();
   LabelParams label;
   AtlasParams atlas;
 };

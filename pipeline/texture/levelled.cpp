@@ -22,8 +22,8 @@ void fields(V& v, LevelledParams& p) {
     "how near to the outline of something in front colours are not used");
   v("occluder_gap_m", p.view.occluder_gap_m, 0.005, 0.3, "m", "how much nearer a surface must be to count as in front");
   v("band_m", p.view.band_m, 0.002, 0.2, "m", "size of detail that divides the coarse from the fine band");
-  v("denoise_levels", p.view.denoise_levels, 0.0, 50.0, "levels",
-    "range sigma of the bilateral filter on the images; 0: none");
+  v("denoise", p.view.denoise, 0.0, 50.0, "",
+    "range of the bilateral filter over the noise found in the image; 0: none");
   v("gain_least_facing", p.gain.least_facing, 0.05, 0.95, "",
     "least cosine of the viewing angle where views are compared");
   v("gain_least_vertices", p.gain.least_vertices, 1, 100000, "", "vertices two views must share to be compared");

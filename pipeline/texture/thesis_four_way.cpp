@@ -3,8 +3,14 @@
 namespace dressform {
 namespace {
 
-struct ThesisFourWayParams {
+ViewParams as_photographed() {
   ViewParams view;
+  view.denoise = 0;
+  return view;
+}
+
+struct ThesisFourWayParams {
+  ViewParams view = as_photographed();
   GainParams gain;
   LabelParams label;
   AtlasParams atlas;
