@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <opencv2/imgproc.hpp>
 
 namespace dressform::metrics {
 namespace {
@@ -99,7 +99,38 @@ int armpit_of(const std::vector<Slice>& slices, int crotch) {
   return -1;
 }
 
-TapeLevels::Level level_of(const Slice& slice) { return {slice.y, slice.girth_m, slice.center}; }
+TapeLevels::Level level_of(const Mesh& body, const Slice& slice) {
+  TapeLevels::Level level{slice.y, slice.girth_m, slice.center, {}, {}};
+  for (auto& line : horizontal_section(body, slice.y)) level.limbs.push_back(std::move(line.points));
+  const auto torso = std::max_element(level.limbs.begin(), level.limbs.end(), [](const auto& a, const auto& b) {
+    return std::abs(signed_area(a)) < std::abs(signed_area(b));
+  });
+  level.torso = std::move(*torso);
+  level.limbs.erase(torso);
+  return level;
+}
+
+double distance(const Vector2d& point, const std::vector<Vector2d>& line) {
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vector2d &from = line[i], side = line[(i + 1) % line.size()] - from;
+    const double length = side.squaredNorm();
+    const double along = length > 0 ? std::clamp((point - from).dot(side) / length, 0.0, 1.0) : 0;
+    best = std::min(best, (from + along * side - point).norm());
+  }
+  return best;
+}
+
+std::vector<Vector2d> points_of_torso(const std::vector<Vector2d>& points, const TapeLevels::Level& level) {
+  std::vector<Vector2d> kept;
+  for (const auto& point : points) {
+    const double to_torso = distance(point, level.torso);
+    const bool of_limb = std::any_of(level.limbs.begin(), level.limbs.end(),
+                                     [&](const auto& limb) { return distance(point, limb) < to_torso; });
+    if (!of_limb) kept.push_back(point);
+  }
+  return kept;
+}
 
 double angle_round(const std::vector<Vector2d>& points, const Vector2d& center) {
   std::vector<double> angles;
@@ -189,9 +220,9 @@ std::optional<TapeLevels> tape_levels(const Mesh& body) {
   const int span = armpit - crotch, waist = extreme(slices, crotch + span * 15 / 100, crotch + span * 85 / 100, -1);
   const int chest_top = armpit - static_cast<int>(slices.size()) / 50;
   TapeLevels levels;
-  levels.waist = level_of(slices[waist]);
-  levels.hip = level_of(slices[extreme(slices, std::min(crotch + 2, waist), waist, 1)]);
-  levels.chest = level_of(slices[extreme(slices, std::min((waist + armpit) / 2, chest_top), chest_top, 1)]);
+  levels.waist = level_of(body, slices[waist]);
+  levels.hip = level_of(body, slices[extreme(slices, std::min(crotch + 2, waist), waist, 1)]);
+  levels.chest = level_of(body, slices[extreme(slices, std::min((waist + armpit) / 2, chest_top), chest_top, 1)]);
   levels.crotch_y = slices[crotch].y;
   levels.armpit_y = slices[armpit].y;
   return levels;
@@ -204,7 +235,7 @@ std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Lev
     const double round = angle_round(line.points, level.center);
     if (round < 300 || round <= least_gap) continue;
     least_gap = round;
-    girth = hull_girth_m(line.points);
+    girth = hull_girth_m(points_of_torso(line.points, level));
   }
   return girth;
 }

@@ -22,6 +22,8 @@ struct TapeLevels {
   struct Level {
     double y = 0, girth_m = 0;
     Eigen::Vector2d center = Eigen::Vector2d::Zero();  // of the torso's section, (x, z)
+    std::vector<Eigen::Vector2d> torso;                // its line
+    std::vector<std::vector<Eigen::Vector2d>> limbs;   // the section's other lines
   };
   Level chest, waist, hip;
   double crotch_y = 0, armpit_y = 0;
@@ -32,8 +34,9 @@ struct TapeLevels {
 // % of the stature below the armpit. Girths are smoothed over 5 cm. Absent where the body is nothing of the kind.
 std::optional<TapeLevels> tape_levels(const Mesh& body);
 
-// Tape girth of a garment round the torso at a level: hull of the section's line that goes round the torso's centre
-// (by at least 300 degrees), sleeves and legs left out. Absent where the garment does not go round it.
+// Tape girth of a garment round the torso at a level: hull of the section's line that goes round the torso's centre (by
+// at least 300 degrees), without its points that lie nearer to a limb than to the torso: sleeves are left out also
+// where they join the torso. Absent where the garment does not go round.
 std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Level& level);
 
 }  // namespace dressform::metrics

@@ -311,6 +311,17 @@ TEST(Girths, GarmentRoundTheTorso) {
   EXPECT_FALSE(garment_girth_m(tube(0.05, 0.05, {0.26, 0, 0}, 1.0, 1.4, 32, 10, false), levels->chest));
 }
 
+TEST(Girths, SleevesThatJoinTheTorsoAreLeftOut) {
+  const auto levels = tape_levels(figure());
+  ASSERT_TRUE(levels);
+  // One tube round torso and arms: its hull is not the torso's girth.
+  const Mesh cape = tube(0.32, 0.14, {0, 0, 0}, 0.9, 1.45, 400, 30, false);
+  const auto girth = garment_girth_m(cape, levels->chest);
+  ASSERT_TRUE(girth);
+  EXPECT_LT(*girth, ellipse_girth(0.28, 0.14));
+  EXPECT_GT(*girth, ellipse_girth(0.18, 0.14));
+}
+
 TEST(Girths, SectionOfAnOpenMeshIsALine) {
   const auto lines = horizontal_section(tube(0.2, 0.2, {0, 0, 0}, 0, 1, 16, 4, false), 0.3);
   ASSERT_EQ(lines.size(), 1u);
