@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/texture/noise.h"
 #include "pipeline/texture/raster.h"
 
 namespace dressform {
@@ -77,20 +78,10 @@ cv::Mat blurred_within(const cv::Mat& color, const cv::Mat& trust, double sigma_
   return low;
 }
 
-// Standard deviation of the noise of one channel of a float image where it is trusted, from the median of a second
-// difference that neither shading nor straight edges answer to (Immerkaer, CVIU 1996).
-double noise_levels(const cv::Mat& color, const cv::Mat& trust) {
-  const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
-  cv::Mat response;
-  cv::filter2D(color, response, CV_32F, kernel);
-  std::vector<float> sizes;
-  for (int y = 0; y < color.rows; ++y)
-    for (int x = 0; x < color.cols; ++x)
-      if (trust.at<float>(y, x) > 0.5f)
-        for (int c = 0; c < 3; ++c) sizes.push_back(std::abs(response.at<cv::Vec3f>(y, x)[c]));
-  if (sizes.empty()) return 0;
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-  return sizes[sizes.size() / 2] / (0.6745 * 6);
+// Mean level of what is trusted.
+double brightness(const cv::Mat& color, const cv::Mat& trust) {
+  const cv::Scalar mean = cv::mean(color, trust > 0.5);
+  return (mean[0] + mean[1] + mean[2]) / 3;
 }
 
 cv::Mat denoised(const cv::Mat& color, double range_levels) {
@@ -118,7 +109,7 @@ void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment
   const double pixels_per_m = view.camera.fx / garment_distance(view, garment);
   view.trust =
       trust_of(filled.mask(crop), std::max(1.0, params.erode_m * pixels_per_m), params.feather_m * pixels_per_m);
-  view.color = denoised(view.color, params.denoise * noise_levels(view.color, view.trust));
+  view.color = denoised(view.color, params.denoise * noise_levels(filled.color, brightness(view.color, view.trust)));
   cv::erode(depth_of(view, crop, scenery), view.occluder_m, disc(std::max(1.0, params.occluder_m * pixels_per_m)));
   distrust_hidden(view, depth_of(view, crop, {&garment}), params.occluder_gap_m);
   view.low = blurred_within(view.color, view.trust, std::max(1.0, params.band_m * pixels_per_m));

@@ -14,7 +14,7 @@ struct ViewParams {
   double occluder_m = 0.005;     // half width of the window in which an occluder is looked for
   double occluder_gap_m = 0.03;  // how much nearer an occluder must be
   double band_m = 0.018;         // standard deviation of the blur that divides the bands, on the garment
-  double denoise = 7;            // range of the bilateral filter over the noise found in the image; 0: none
+  double denoise = 4;            // range of the bilateral filter over the noise found in the image; 0: none
 };
 
 // One garment in the raw colour image of one registered sensor, cropped to the garment.
