@@ -9,7 +9,9 @@ namespace dressform {
 namespace {
 
 constexpr double kLargestLift_m = 0.012;  // of a cut triangle in one round
-constexpr double kThickestLimb_m = 0.2;
+// Leaving the way the cloth faces may be so much longer than leaving by the nearest side, and so much more.
+constexpr double kDetour = 4, kDetour_m = 0.02;
+constexpr int kPatience = 15;  // rounds after which the gap shrinks: the room between arm and trunk may be less
 
 std::vector<std::vector<int>> neighbours_of(const Mesh& mesh) {
   std::vector<std::vector<int>> neighbours(mesh.vertices.size());
@@ -42,6 +44,7 @@ class Pusher {
     PushedOut result;
     std::vector<char> stale_triangle(mesh_.triangles.size(), 1);
     for (result.rounds = 0; result.rounds < params_.rounds; ++result.rounds) {
+      gap_m_ = params_.gap_m * std::clamp(1 - (result.rounds - kPatience) / 20.0, 0.1, 1.0);
       std::vector<Vector3d> push(mesh_.vertices.size(), Vector3d::Zero());
       bool any = find_vertex_pushes(push);
       if (!any) {
@@ -65,16 +68,16 @@ class Pusher {
     const Vector3d& p = mesh_.vertices[v];
     const auto closest = body_.closest(p);
     const double distance = body_.signed_distance(p, closest);
-    if (distance >= 0.98 * params_.gap_m) return p;
+    if (distance >= 0.98 * gap_m_) return p;
     Vector3d out = distance < 0 ? Vector3d(closest.point - p) : Vector3d(p - closest.point);
     out = std::abs(distance) > 1e-5 ? Vector3d(out.normalized()) : body_.normal(closest.triangle);
     const Vector3d facing = beside_[closest.triangle] ? Vector3d(-cloth_normal) : cloth_normal;
     if (distance < -0.004 && out.dot(facing) < -0.3) {
       const auto hit = body_.first_hit(p, facing);
-      if (hit && hit->distance < kThickestLimb_m && body_.normal(hit->triangle).dot(facing) > 0)
-        return hit->point + params_.gap_m * body_.normal(hit->triangle);
+      if (hit && hit->distance < kDetour * -distance + kDetour_m && body_.normal(hit->triangle).dot(facing) > 0)
+        return hit->point + gap_m_ * body_.normal(hit->triangle);
     }
-    return closest.point + params_.gap_m * out;
+    return closest.point + gap_m_ * out;
   }
 
   bool find_vertex_pushes(std::vector<Vector3d>& push) {
@@ -114,7 +117,7 @@ class Pusher {
     for (int other : cuts_[i])
       for (int k = 0; k < 3; ++k)
         height = std::max(height, normal.dot(body_.mesh().vertices[body_.mesh().triangles[other][k]] - a));
-    return std::min(kLargestLift_m, (height + 0.3 * params_.gap_m) / normal.dot(out)) * out;
+    return std::min(kLargestLift_m, (height + 0.3 * gap_m_) / normal.dot(out)) * out;
   }
 
   bool find_triangle_lifts(std::vector<Vector3d>& push) const {
@@ -162,6 +165,7 @@ class Pusher {
   const IntersectionFinder& finder_;
   const std::vector<char>& beside_;
   const PushOutParams params_;
+  double gap_m_ = params_.gap_m;
   const std::vector<std::vector<int>> neighbours_;
   std::vector<char> stale_vertex_;      // moved since its distance was last found
   std::vector<std::vector<int>> cuts_;  // per triangle, as last found

@@ -65,20 +65,26 @@ Ring trunk_ring(const Side& side, double y, int angles, bool below_armpit) {
   return result;
 }
 
-// Height on either body at part t of the trunk: 0 crotch, 1 waist, 2 armpit, 3 neck, 4 top of the head.
+// Height on either body at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 armpit, 4 neck, 5 top of the head.
 double trunk_height(const StandingBody& body, double t) {
-  const double marks[] = {body.crotch_y, body.waist_y, body.armpit_y, body.neck_y, body.limbs.floor_y + body.stature};
-  const int i = std::clamp(static_cast<int>(t), 0, 3);
+  const double marks[] = {body.crotch_y, body.hip_y,  body.waist_y,
+                          body.armpit_y, body.neck_y, body.limbs.floor_y + body.stature};
+  const int i = std::clamp(static_cast<int>(t), 0, 4);
   return marks[i] + (t - i) * (marks[i + 1] - marks[i]);
 }
 
 void add_trunk(const Side& naked, const Side& user, const ControlPairParams& params, std::vector<ControlPair>& pairs) {
-  for (int level = 0; level < params.trunk_levels; ++level) {
-    const double t = 0.03 + 3 * (level + 0.5) / params.trunk_levels;
-    add_pairs(trunk_ring(naked, trunk_height(naked.body, t), params.trunk_angles, t < 2),
-              trunk_ring(user, trunk_height(user.body, t), params.trunk_angles, t < 2), BodyPart::torso, pairs);
+  // As many rings to each part of the trunk as it is long.
+  const double parts[] = {0.08, 0.22, 0.42, 0.28};
+  for (int part = 0; part < 4; ++part) {
+    const int levels = std::max(1, static_cast<int>(std::lround(parts[part] * params.trunk_levels)));
+    for (int level = 0; level < levels; ++level) {
+      const double t = part + (level + 0.5) / levels;
+      add_pairs(trunk_ring(naked, trunk_height(naked.body, t), params.trunk_angles, t < 3),
+                trunk_ring(user, trunk_height(user.body, t), params.trunk_angles, t < 3), BodyPart::torso, pairs);
+    }
   }
-  for (const double t : {3.0, 3.25, 3.5, 3.75, 3.93})
+  for (const double t : {4.0, 4.25, 4.5, 4.75, 4.93})
     add_pairs(trunk_ring(naked, trunk_height(naked.body, t), 8, false),
               trunk_ring(user, trunk_height(user.body, t), 8, false), BodyPart::head, pairs);
 }

@@ -37,6 +37,19 @@ double find_waist(const StandingBody& body) {
   return best_y > 0 ? best_y : 0.5 * (body.crotch_y + body.armpit_y);
 }
 
+// The widest height between crotch and waist; the pull to where hips are decides where there is none.
+double find_hip(const StandingBody& body) {
+  double best_y = 0, best = 0;
+  for (double t = 0.06; t <= 0.6; t += 0.02) {
+    const double y = body.crotch_y + t * (body.waist_y - body.crotch_y), girth = mean_girth_near(body, y);
+    const double score = std::isfinite(girth) ? girth * (1 - 0.25 * (t - 0.25) * (t - 0.25)) : 0;
+    if (score <= best) continue;
+    best = score;
+    best_y = y;
+  }
+  return best_y > 0 ? best_y : body.crotch_y + 0.25 * (body.waist_y - body.crotch_y);
+}
+
 // How far the body reaches from the axis in each direction (0 = front), at one part of the stature: the trunk's loop,
 // or the two legs below it. Over its mean, so that girth does not matter.
 std::vector<double> outline(const StandingBody& body, double part) {
@@ -131,6 +144,7 @@ StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front
       std::clamp(body.limbs.armpit_y, floor + kLowestArmpit * body.stature, floor + kHighestArmpit * body.stature);
   body.neck_y = std::clamp(body.limbs.neck_y, floor + 0.80 * body.stature, floor + 0.92 * body.stature);
   body.waist_y = find_waist(body);
+  body.hip_y = find_hip(body);
   int count = 0;
   for (double y = body.crotch_y; y < body.armpit_y; y += body.sections.step)
     if (const SectionLoop* loop = body.trunk_loop(y)) body.axis += loop->centroid, ++count;

@@ -16,7 +16,7 @@ struct StandingBody {
   double stature = 0;
   // Landmark heights, m. Found by topology and girth, and held within what people are like (ANSUR II): thighs that
   // touch hide the crotch, a belly hides the waist.
-  double crotch_y = 0, waist_y = 0, armpit_y = 0, neck_y = 0;
+  double crotch_y = 0, hip_y = 0, waist_y = 0, armpit_y = 0, neck_y = 0;
   Vector3d axis = Vector3d::Zero();  // a point on the trunk's axis (x and z matter)
 
   // Direction at `angle` about the vertical, 0 = front, a quarter turn = left.
