@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
+#include <tbb/global_control.h>
 
 #include <cstring>
 
@@ -18,7 +19,7 @@ std::vector<Surface> stage() {
   return surfaces;
 }
 
-void one_thread_note(benchmark::State& state, double rays_per_iteration) {
+void report_rate(benchmark::State& state, double rays_per_iteration) {
   state.counters["Mray/s"] =
       benchmark::Counter(rays_per_iteration * state.iterations() * 1e-6, benchmark::Counter::kIsRate);
 }
@@ -64,22 +65,23 @@ void BareEmbree(benchmark::State& state) {
         rtcIntersect16(valid, scene, &context, &query);
         benchmark::DoNotOptimize(query);
       }
-  one_thread_note(state, 512 * 424);
+  report_rate(state, 512 * 424);
   rtcReleaseScene(scene);
   rtcReleaseDevice(device);
 }
 BENCHMARK(BareEmbree)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// First hits with normals and albedo, all threads.
+// First hits with normals and albedo, on the given number of threads.
 void FirstHits(benchmark::State& state) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, state.range(0));
   const RayScene scene(stage());
   const Camera camera = kinect();
   const RayTable table(camera);
   const IrView view(scene, table, camera, Isometry3d::Identity(), 0);
   for (auto _ : state) benchmark::DoNotOptimize(view.first_hits());
-  one_thread_note(state, 512 * 424);
+  report_rate(state, 512 * 424);
 }
-BENCHMARK(FirstHits)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(FirstHits)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void Measure(benchmark::State& state, const char* model) {
   const RayScene scene(stage());
@@ -88,7 +90,7 @@ void Measure(benchmark::State& state, const char* model) {
   const IrView view(scene, table, camera, Isometry3d::Identity(), 0, false);
   Seed seed = 0;
   for (auto _ : state) benchmark::DoNotOptimize(SensorModel::at(model).run(view, {}, ++seed));
-  one_thread_note(state, 512 * 424);
+  report_rate(state, 512 * 424);
 }
 BENCHMARK_CAPTURE(Measure, ideal, "ideal")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(Measure, fankhauser, "fankhauser")->Unit(benchmark::kMillisecond)->UseRealTime();
