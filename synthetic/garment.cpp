@@ -8,6 +8,7 @@
 #include "scenes/mesh_io.h"
 #include "synthetic/contour.h"
 #include "synthetic/garment_shape.h"
+#include "synthetic/surface_distance.h"
 
 namespace dressform {
 namespace {
@@ -57,6 +58,8 @@ Garment procedural_garment(const GarmentSpec& spec, const Body& body, const std:
   const GarmentShape shape = maker_of(spec.kind)(spec, body, inner, seed);
   Mesh mesh = contour(shape.field, shape.box, kStep);
   for (const RimCut& cut : shape.cuts) mesh = largest_part(cut_off(std::move(mesh), cut.beyond));
+  mesh = pushed_clear(mesh, body.mesh, 0.0045);
+  for (const Garment& under : inner) mesh = pushed_clear(mesh, under.textured.mesh, 0.0030);
   for (const Level& seam : shape.seams) split_along(mesh, seam);
   Garment garment;
   garment.rims = name_rims(mesh, shape.cuts);

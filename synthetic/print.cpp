@@ -53,9 +53,19 @@ void draw_star(cv::Mat& picture, const cv::Point2d& center, double radius, doubl
   fill_polygon(picture, outline, color);
 }
 
+constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
+constexpr double kTextWidth = 0.25;  // at most, so that the front shows all of it, m
+
+// Height of the text: the wanted one, or what its width leaves.
+double fitting_height(const std::string& text, double wanted_m) {
+  int baseline = 0;
+  const cv::Size size = cv::getTextSize(text, kFont, 1, 3, &baseline);
+  return std::min(wanted_m, kTextWidth * 21 / std::max(1, size.width));
+}
+
 // Text about a middle, `height_m` high, in strokes.
-void draw_text(Canvas& canvas, const cv::Point2d& middle, double height_m, const cv::Scalar& color) {
-  constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
+void draw_text(Canvas& canvas, const cv::Point2d& middle, double wanted_m, const cv::Scalar& color) {
+  const double height_m = fitting_height(canvas.text, wanted_m);
   const double scale = canvas.pixels(height_m) / 21;
   const int thickness = std::max(1, cvRound(canvas.pixels(height_m) * 0.13));
   int baseline = 0;
@@ -77,11 +87,12 @@ void paint_stars(Canvas& canvas) {
       const auto u = uniform4(canvas.seed, stream_of("stars"), index++);
       const cv::Point2d at(middle.x + pitch * (i + (j % 2 ? 0.5 : 0.0) + 0.25 * (u[0] - 0.5)),
                            middle.y + pitch * (j + 0.25 * (u[1] - 0.5)));
-      const double half_text = canvas.pixels(0.5 * text_height * canvas.text.size());
+      const double half_text = canvas.pixels(0.5 * kTextWidth);
       const bool under_text = !canvas.text.empty() && std::abs(at.y - text_y) < canvas.pixels(0.075) &&
                               std::abs(at.x - middle.x) < half_text + canvas.pixels(0.03);
       if (under_text) continue;
-      draw_star(canvas.picture, at, canvas.pixels(0.014 + 0.018 * u[2]), 2 * CV_PI * u[3], canvas.color(1 + index % 2));
+      draw_star(canvas.picture, at, canvas.pixels(0.014 + 0.018 * u[2]), 2 * CV_PI * u[3],
+                canvas.color(1 + index % std::max<size_t>(1, canvas.colors.size() - 1)));
     }
   if (!canvas.text.empty()) draw_text(canvas, {middle.x, text_y}, text_height, canvas.color(1));
 }
