@@ -9,75 +9,9 @@
 namespace dressform {
 namespace {
 
-// Tukey's biweight: weight and loss of a residual in units of the constant; the loss saturates at 1.
-struct Tukey {
-  double weight, loss;
-  explicit Tukey(double ratio) {
-    const double u = std::max(0.0, 1 - ratio * ratio);
-    weight = u * u;
-    loss = 1 - u * u * u;
-  }
-};
-
-Vector6d solve_regularised(Matrix6d matrix, const Vector6d& vector) {
-  matrix.diagonal().array() += 1e-9 * matrix.trace();
-  return matrix.ldlt().solve(vector);
-}
-
 constexpr int kLeastInliers = 60;
 
 }  // namespace
-
-Isometry3d exponential(const Vector6d& twist) {
-  Isometry3d result = Isometry3d::Identity();
-  const double angle = twist.head<3>().norm();
-  if (angle > 1e-12) result.linear() = Eigen::AngleAxisd(angle, twist.head<3>() / angle).toRotationMatrix();
-  result.translation() = twist.tail<3>();
-  return result;
-}
-
-PairEquations pair_equations(const ScanFrames& frames, const Projector& projector, int source, int target,
-                             const Isometry3d& world_from_source, const Isometry3d& world_from_target,
-                             const PairGate& gate) {
-  const DepthMap &from = frames.maps[source], &to = frames.maps[target];
-  const Isometry3d target_from_source = world_from_target.inverse() * world_from_source;
-  const Eigen::Matrix3f rotation = target_from_source.linear().cast<float>();
-  const Vector3f translation = target_from_source.translation().cast<float>();
-  const auto reach = static_cast<float>(1.5 * gate.distance_m);
-  PairEquations result;
-  const auto& samples = frames.samples[source];
-  for (std::size_t k = 0; k < samples.size(); k += gate.stride) {
-    const int i = samples[k];
-    const Vector3f point = rotation * from.points[i] + translation;
-    Vector2f pixel;
-    if (!projector(point, pixel)) continue;
-    const int j = static_cast<int>(pixel.y() + 0.5f) * to.camera.width + static_cast<int>(pixel.x() + 0.5f);
-    if (to.points[j].z() == 0) continue;
-    // A point behind what the target saw is hidden there and says nothing.
-    if (point.z() > to.points[j].z() + 3 * reach) continue;
-    ++result.visible;
-    result.cost += 1;
-    if (!to.has_normal(j)) continue;
-    const float residual = to.normals[j].dot(point - to.points[j]);
-    if (std::abs(residual) > reach || std::abs(point.z() - to.points[j].z()) > 3 * reach) continue;
-    if (to.normals[j].dot(rotation * from.normals[i]) < gate.normal_cosine) continue;
-    const double variance = from.sigma_m[i] * from.sigma_m[i] + to.sigma_m[j] * to.sigma_m[j];
-    const Tukey tukey(residual / gate.distance_m);
-    result.cost += tukey.loss - 1;
-    if (tukey.weight == 0) continue;
-    const Vector3d normal = world_from_target.linear() * to.normals[j].cast<double>();
-    const Vector3d world = world_from_target * point.cast<double>();
-    Vector6d jacobian;
-    jacobian << world.cross(normal), normal;
-    const double weight = 1e-6 * tukey.weight / variance;  // of a residual in millimetres
-    result.matrix.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, weight);
-    result.vector -= weight * residual * jacobian;
-    result.squared_residual_m2 += residual * residual;
-    ++result.inliers;
-  }
-  result.matrix = Matrix6d(result.matrix.selfadjointView<Eigen::Lower>());
-  return result;
-}
 
 FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projector, int frame,
                                const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
@@ -88,8 +22,8 @@ FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projec
     for (int iteration = 0; iteration < iterations; ++iteration) {
       PairEquations sum;
       for (const int target : targets) {
-        const PairEquations pair =
-            pair_equations(frames, projector, frame, target, result.world_from_frame, world_from_frame[target], gate);
+        const PairEquations pair = pair_equations(frames.maps[frame], frames.samples[frame], frames.maps[target],
+                                                  projector, result.world_from_frame, world_from_frame[target], gate);
         sum.matrix += pair.matrix;
         sum.vector += pair.vector;
         sum.squared_residual_m2 += pair.squared_residual_m2;
@@ -98,7 +32,7 @@ FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projec
         sum.visible += pair.visible;
       }
       if (sum.inliers < kLeastInliers) return result.converged = false, result;
-      const Vector6d twist = solve_regularised(sum.matrix, sum.vector);
+      const Vector6d twist = solve_twist(sum.matrix, sum.vector);
       result.world_from_frame = exponential(twist) * result.world_from_frame;
       result.residual_rms_m = std::sqrt(sum.squared_residual_m2 / sum.inliers);
       result.inlier_part = static_cast<double>(sum.inliers) / sum.visible;
@@ -163,8 +97,8 @@ GlobalAlignment align_all(const ScanFrames& frames, const Projector& projector,
       std::vector<PairEquations> equations(pairs.size());
       tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
         const auto [source, target] = pairs[k];
-        equations[k] =
-            pair_equations(frames, projector, source, target, world_from_frame[source], world_from_frame[target], gate);
+        equations[k] = pair_equations(frames.maps[source], frames.samples[source], frames.maps[target], projector,
+                                      world_from_frame[source], world_from_frame[target], gate);
       });
       const auto twists = solve_poses(frames.count(), pairs, equations);
       double largest = 0;

@@ -14,7 +14,7 @@ namespace dressform {
 struct Registration {
   std::map<std::string, Isometry3d> model_from_sensor;  // IR camera
   std::map<std::string, bool> converged;
-  std::map<std::string, double> residual_rms_m;         // point to plane on inliers
+  std::map<std::string, double> residual_rms_m;  // point to plane on inliers
   std::map<std::string, int> inliers;
 
   template <class Archive>

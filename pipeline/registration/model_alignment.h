@@ -1,0 +1,64 @@
+#pragma once
+#include <vector>
+
+#include "pipeline/common/mesh_query.h"
+#include "pipeline/common/pair_equations.h"
+#include "pipeline/registration/view_points.h"
+
+namespace dressform {
+
+// The naked model as a target: its surface, the floor y = 0 and, where asked, the room round it.
+class ModelTarget {
+ public:
+  explicit ModelTarget(const BodyModel& naked);
+
+  struct Contact {
+    Vector3d point, normal;  // nearest point of the surface; unit
+  };
+  // False when nothing is within reach_m.
+  bool body(const Vector3d& point, double reach_m, Contact& contact) const {
+    return nearest(*query_, point, reach_m, contact);
+  }
+  const MeshQuery& query() const { return *query_; }
+  const std::vector<Vector3d>& vertex_normals() const { return normals_; }
+
+ private:
+  bool nearest(const MeshQuery& query, const Vector3d& point, double reach_m, Contact& contact) const;
+  std::unique_ptr<MeshQuery> query_;
+  std::vector<Vector3d> normals_;
+};
+
+struct ModelGate {
+  double distance_m = 0.04;  // Tukey's constant
+  double normal_cosine = 0.7;
+  int most_points = 1 << 30;  // of the body, evenly thinned; of the floor a third of it
+};
+
+// Point to plane of one view against the model; twists in the model frame.
+struct ModelEquations {
+  Matrix6d matrix = Matrix6d::Zero();
+  Vector6d vector = Vector6d::Zero();
+  double squared_residual_m2 = 0;  // over the body's inliers
+  double cost = 0;                 // sum of the robust loss over the body's points
+  int inliers = 0, points = 0;     // of the body
+};
+ModelEquations model_equations(const ViewPoints& view, const ModelTarget& target, const Isometry3d& model_from_sensor,
+                               const ModelGate& gate);
+
+struct ViewAlignment {
+  Isometry3d model_from_sensor = Isometry3d::Identity();
+  double cost = 1;  // mean robust loss of the body's points at the last gate
+  double residual_rms_m = 0;
+  int inliers = 0;
+  double inlier_part = 0;  // of the body's points
+  bool valid = false;
+};
+ViewAlignment align_to_model(const ViewPoints& view, const ModelTarget& target, const Isometry3d& initial,
+                             const std::vector<ModelGate>& gates, int iterations);
+
+// Part of the model's surface facing the sensor at which the sensor looked through the model, seeing something more
+// than tolerance_m behind it: evidence against a pose. Hidden and unmeasured parts do not count.
+double contradicted_part(const ViewPoints& view, const ModelTarget& target, const Projector& projector,
+                         const Isometry3d& model_from_sensor, double tolerance_m);
+
+}  // namespace dressform

@@ -1,0 +1,44 @@
+#include "pipeline/registration/acceptance.h"
+#include "pipeline/registration/initial_poses.h"
+
+namespace dressform {
+namespace {
+
+struct PointToPlaneParams {
+  int points = 6000;
+  int iterations = 20;
+  InitialPoseOptions initial;
+  AcceptanceOptions acceptance;
+};
+
+template <class V>
+void fields(V& v, PointToPlaneParams& p) {
+  v("points", p.points, 200, 200000, "", "of the mannequin used in every view");
+  v("iterations", p.iterations, 1, 200, "", "at each of three widths of the loss");
+  v("headings", p.initial.headings, 4, 360, "", "starts round the circle");
+  v("prior_reach_deg", p.initial.prior_reach_deg, 5.0, 180.0, "deg", "how far a view may turn from the rig prior");
+  acceptance_fields(v, p.acceptance);
+}
+
+// Every view by itself against the model (Chen and Medioni, 1991), with a loss that narrows.
+Registration point_to_plane(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+                            const ExtractedViews& extracted, const PointToPlaneParams& params) {
+  check_registration_input(session, naked);
+  const auto views = view_points(session, calibration, extracted, params.points);
+  const ModelTarget target(naked);
+  auto alignments = initial_poses(views, target, params.initial);
+  std::vector<char> accepted(views.size(), 0);
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!alignments[v].valid) continue;
+    alignments[v] = align_to_model(views[v], target, alignments[v].model_from_sensor,
+                                   {{0.04, 0.7}, {0.015, 0.7}, {0.010, 0.7}}, params.iterations);
+    accepted[v] = acceptable(views[v], target, alignments[v], params.acceptance);
+  }
+  reject_outliers(alignments, accepted);
+  return registration_of(views, alignments, accepted);
+}
+
+const Register::Variant variant{"point_to_plane", point_to_plane};
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,129 @@
+#include "pipeline/registration/view_points.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/common/floor.h"
+#include "scenes/random.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kCylinder = 0.8, kAboveFloor = 0.03, kFloorBand = 0.05;
+constexpr Seed kFloorSeed = 20;  // of the search's draws; another seed finds the same plane
+
+std::vector<int> thinned(const std::vector<int>& all, int most) {
+  if (static_cast<int>(all.size()) <= most) return all;
+  std::vector<int> result;
+  for (int k = 0; k < most; ++k) result.push_back(all[static_cast<std::size_t>(k) * all.size() / most]);
+  return result;
+}
+
+// Point nearest to the sensors' optical axes, world frame; nothing with fewer than two sensors.
+std::optional<Vector3d> axes_crossing(const RigPrior& prior) {
+  if (prior.world_from_sensor.size() < 2) return {};
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Vector3d vector = Vector3d::Zero();
+  for (const auto& [sensor, pose] : prior.world_from_sensor) {
+    const Vector3d axis = pose.linear().col(2);
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    matrix += across;
+    vector += across * pose.translation();
+  }
+  return matrix.ldlt().solve(vector);
+}
+
+// Where the thing in front of the sensor stands: on the optical axis, at the median depth of the picture's middle.
+std::optional<Vector3d> middle_of_picture(const DepthMap& map) {
+  std::vector<float> depths;
+  for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
+    for (int x = map.camera.width * 2 / 5; x < map.camera.width * 3 / 5; ++x) {
+      const float z = map.points[static_cast<std::size_t>(y) * map.camera.width + x].z();
+      if (z > 0) depths.push_back(z);
+    }
+  if (depths.empty()) return {};
+  std::nth_element(depths.begin(), depths.begin() + depths.size() / 4, depths.end());
+  return Vector3d(0, 0, depths[depths.size() / 4] + 0.1);
+}
+
+std::optional<Eigen::Vector4d> own_floor(const DepthMap& map, const std::optional<Isometry3d>& world_from_sensor) {
+  FloorSearch search;
+  if (world_from_sensor) search.up = world_from_sensor->linear().transpose() * Vector3d::UnitY();
+  search.tilt_deg = 30;
+  std::vector<Vector3d> level;
+  for (std::size_t i = 0; i < map.points.size(); i += 3)
+    if (map.has_normal(static_cast<int>(i)) && map.normals[i].cast<double>().dot(search.up) > 0.75)
+      level.push_back(map.points[i].cast<double>());
+  return find_floor(level, search, kFloorSeed, stream_of("registration.floor"));
+}
+
+struct Scene {
+  const ExtractedViews& extracted;
+  const CaptureSession& session;
+  std::optional<Vector3d> place;  // of the mannequin, world frame
+};
+
+// Sorts the points of a view into body, floor and room.
+void sort_points(const Scene& scene, ViewPoints& view, int most_points) {
+  const auto found = scene.extracted.views.find(view.sensor);
+  const bool masked = found != scene.extracted.views.end() && found->second.found_naked &&
+                      found->second.naked.rows == view.map.camera.height &&
+                      found->second.naked.cols == view.map.camera.width;
+  std::optional<Vector3d> place = middle_of_picture(view.map);
+  if (scene.place && view.world_from_sensor) place = view.world_from_sensor->inverse() * *scene.place;
+  const Vector3d up = view.floor_plane ? Vector3d(view.floor_plane->head<3>()) : Vector3d(0, -1, 0);
+  std::vector<int> body, floor, room;
+  for (int i = 0; i < static_cast<int>(view.map.points.size()); ++i) {
+    if (!view.map.has_normal(i)) continue;
+    const Vector3d p = view.map.points[i].cast<double>();
+    const double height = view.floor_plane ? up.dot(p) + (*view.floor_plane)[3] : 1;
+    bool is_body = false;
+    if (masked) {
+      is_body = found->second.naked.at<std::uint8_t>(i / view.map.camera.width, i % view.map.camera.width) != 0;
+    } else if (place) {
+      const Vector3d from_axis = p - *place;
+      is_body = height > kAboveFloor && (from_axis - up * up.dot(from_axis)).norm() < kCylinder;
+    }
+    const bool is_floor =
+        view.floor_plane && std::abs(height) < kFloorBand && view.map.normals[i].cast<double>().dot(up) > 0.9;
+    (is_body ? body : is_floor ? floor : room).push_back(i);
+  }
+  view.body = thinned(body, most_points);
+  view.floor = thinned(floor, most_points / 3);
+  view.room = thinned(room, most_points / 2);
+}
+
+ViewPoints one_view(const Scene& scene, const Calibration& calibration, const std::string& sensor, int most_points) {
+  ViewPoints view;
+  view.sensor = sensor;
+  const auto shot = scene.session.naked.find(sensor);
+  const auto own = calibration.sensors.find(sensor);
+  if (shot == scene.session.naked.end() || own == calibration.sensors.end() || shot->second.depth_mm.empty())
+    return view;
+  view.map = make_depth_map(shot->second.depth_mm, own->second, {});
+  if (scene.session.prior) {
+    const auto prior = scene.session.prior->world_from_sensor.find(sensor);
+    if (prior != scene.session.prior->world_from_sensor.end()) view.world_from_sensor = prior->second;
+  }
+  const auto floor = scene.extracted.floor_in_sensor.find(sensor);
+  view.floor_plane = floor != scene.extracted.floor_in_sensor.end() ? std::optional(floor->second)
+                                                                    : own_floor(view.map, view.world_from_sensor);
+  sort_points(scene, view, most_points);
+  return view;
+}
+
+}  // namespace
+
+std::vector<ViewPoints> view_points(const CaptureSession& session, const Calibration& calibration,
+                                    const ExtractedViews& extracted, int most_points) {
+  Scene scene{extracted, session, {}};
+  if (session.prior) scene.place = axes_crossing(*session.prior);
+  std::vector<ViewPoints> views(session.sensors.size());
+  tbb::parallel_for(std::size_t{0}, views.size(),
+                    [&](std::size_t i) { views[i] = one_view(scene, calibration, session.sensors[i], most_points); });
+  return views;
+}
+
+}  // namespace dressform
