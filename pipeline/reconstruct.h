@@ -2,12 +2,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/correct/correct.h"
-#include "pipeline/texture/texture.h"
+#include "pipeline/artifact_store.h"
 #include "pipeline/calibrate/calibrate.h"
+#include "pipeline/correct/correct.h"
+#include "pipeline/made.h"
 
 namespace dressform {
 
@@ -21,28 +23,60 @@ struct ReconstructionOptions {
 // What one stage did in this run.
 struct StageRecord {
   int number = 0;
-  std::string stage, variant, key, folder;  // folder: of the artifact in the store
-  FieldValues values;                       // all parameters, defaults included
-  double seconds = 0;                       // of the run that made the artifact
+  std::string label;          // the stage's name, or "fuse_naked", "fuse_user"
+  Recipe recipe;
+  std::string key;            // of the recipe: where the artifact lies in the store
+  double seconds = 0;         // of the run that made the artifact
   double peak_memory_mb = 0;
   bool reused = false;
 };
+using StageProgress = std::function<void(const StageRecord&, bool finished)>;
+
+// A capture session as the road takes it: content hashes at once, pictures only when a stage asks for them.
+struct SessionSource {
+  Made<CaptureSession> session;
+  Made<DepthScan> scan_naked;
+  std::optional<Made<DepthScan>> scan_user;  // absent: the garments are made but not fitted
+  std::vector<std::string> sensors;
+  std::string scan_naked_sensor, scan_user_sensor;
+};
+// `check` reads and checks the whole session now, so that a damaged file is an InputError before anything is written.
+SessionSource open_session(const std::filesystem::path& folder, bool check);
 
 // Everything the road makes, in its order.
 struct Reconstruction {
   std::vector<std::string> sensors;
-  Calibration calibration;
-  BodyModel naked, user;
-  ExtractedViews extracted;
-  Registration registration;
-  Segmentation segmentation;
-  FilledViews filled;
-  ClosedGarments closed;
-  OpenGarments opened;
-  TexturedGarments textured;
-  FittedGarments fitted;
-  CorrectedGarments corrected;
+  Made<Calibration> calibration;
+  Made<BodyModel> naked;
+  Made<ExtractedViews> extracted;
+  Made<Registration> registration;
+  Made<Segmentation> segmentation;
+  Made<FilledViews> filled;
+  Made<ClosedGarments> closed;
+  Made<OpenGarments> opened;
+  Made<TexturedGarments> textured;
+  std::optional<Made<BodyModel>> user;
+  std::optional<Made<FittedGarments>> fitted;
+  std::optional<Made<CorrectedGarments>> corrected;
   std::vector<StageRecord> records;
 };
+
+// The whole road. Throws InputError for unknown stages, variants and parameters before any stage runs.
+Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
+                           const StageProgress& progress = {});
+
+// The registered stages in the order of the road, with their variants and parameters: for --help, checks and reports.
+struct StageDescription {
+  struct VariantDescription {
+    std::string name;
+    std::vector<FieldInfo> fields;
+  };
+  std::string name, default_variant;
+  std::vector<VariantDescription> variants;
+};
+std::vector<StageDescription> describe_stages();
+
+// Throws InputError naming the option where a stage, variant or parameter is not known or out of range.
+void check_options(const ReconstructionOptions& options);
 
 }  // namespace dressform

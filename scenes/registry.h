@@ -14,7 +14,8 @@ namespace dressform {
 using Seed = std::uint64_t;
 
 // A family of named, interchangeable functions with one signature: the stages of the pipeline, the sensor models.
-// Tag is a struct with `static constexpr const char* name`. A variant is one .cpp file that registers itself with
+// Tag is a struct with `static constexpr const char*` members name and default_variant. A variant is one .cpp file that
+// registers itself with
 //   const Fuse::Variant variant{"tsdf", tsdf};
 // where tsdf is Out(const In&..., const Params&) or Out(const In&..., const Params&, Seed).
 template <class Tag, class Signature>
@@ -29,7 +30,9 @@ class Registry<Tag, Out(const In&...)> {
     std::vector<FieldInfo> fields;  // with defaults
     // Checks the values against the variant's fields (InputError), then runs it.
     std::function<Out(const In&..., const FieldValues&, Seed)> run;
-    std::function<void(const FieldValues&)> check;  // throws InputError where a value is unknown or out of range
+    // All parameters: the defaults overridden by `values`, in their own types. Throws InputError where a value is unknown,
+    // of the wrong type or out of range.
+    std::function<FieldValues(const FieldValues&)> complete;
   };
 
   class Variant {
@@ -53,12 +56,17 @@ class Registry<Tag, Out(const In&...)> {
       entry.run = [where, function](const In&... in, const FieldValues& values, Seed seed) {
         return function(in..., assign_fields<Params>(where, values), seed);
       };
-      entry.check = [where](const FieldValues& values) { assign_fields<Params>(where, values); };
+      entry.complete = [where](const FieldValues& values) {
+        FieldValues all;
+        for (const auto& field : list_fields(assign_fields<Params>(where, values))) all[field.name] = field.value;
+        return all;
+      };
       if (!entries().emplace(name, entry).second) throw std::logic_error(where + " is registered twice");
     }
   };
 
   static std::string name() { return Tag::name; }
+  static std::string default_variant() { return Tag::default_variant; }
 
   static std::vector<std::string> names() {
     std::vector<std::string> result;
