@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "eval/cli/commands.h"
+#include "eval/cli/options.h"
+#include "synthetic/sensors/sensor_model.h"
+
+namespace dressform {
+namespace {
+
+void print_field(const FieldInfo& field) {
+  std::string range;
+  if (std::holds_alternative<int>(field.value) || std::holds_alternative<double>(field.value))
+    range = to_text(field.minimum) + " to " + to_text(field.maximum);
+  for (const auto& choice : field.choices) range += (range.empty() ? "" : "|") + choice;
+  const std::string unit = field.unit.empty() ? "" : " " + field.unit;
+  fmt::print("      {:<26} {:<10} {}{}\n", field.name, to_text(field.value) + unit,
+             range.empty() ? "" : "[" + range + "] ", field.doc);
+}
+
+void print_variant(const std::string& name, bool is_default, const std::vector<FieldInfo>& fields) {
+  fmt::print("  {}{}\n", name, is_default ? "  (default)" : "");
+  for (const auto& field : fields) print_field(field);
+}
+
+int print_variants(const std::string& only) {
+  bool found = only.empty();
+  if (only.empty() || only == "sensor") {
+    found = true;
+    fmt::print("sensor\n");
+    for (const auto& name : SensorModel::names())
+      print_variant(name, name == SensorModel::default_variant(), SensorModel::at(name).fields);
+  }
+  for (const auto& stage : describe_stages()) {
+    if (!only.empty() && only != stage.name) continue;
+    found = true;
+    fmt::print("{}\n", stage.name);
+    for (const auto& variant : stage.variants)
+      print_variant(variant.name, variant.name == stage.default_variant, variant.fields);
+  }
+  if (!found) throw InputError("stage " + only, "not known; expected sensor or a stage that `dressform variants` lists");
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_variants_command(CLI::App& app) {
+  auto stage = std::make_shared<std::string>();
+  auto* command = app.add_subcommand("variants", "List the stages, their variants and parameters");
+  command->add_option("stage", *stage, "only this stage");
+  command->footer("Example:\n  dressform variants registration");
+  return [stage] { return print_variants(*stage); };
+}
+
+}  // namespace dressform

@@ -1,0 +1,84 @@
+#include "eval/run/capture_store.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scenes/capture_session.h"
+#include "scenes/ground_truth.h"
+#include "scenes/hash.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Meshes and textures that the scene brings along.
+std::vector<fs::path> own_files(const Scene& scene) {
+  std::vector<fs::path> files{scene.body.mesh, scene.user.mesh};
+  for (const auto& garment : scene.garments) files.insert(files.end(), {garment.mesh, garment.texture});
+  files.erase(std::remove(files.begin(), files.end(), fs::path{}), files.end());
+  return files;
+}
+
+Recipe recipe_of(const Scene& scene, double scale, Seed seed) {
+  Recipe recipe{"synthesize", scene.sensor_model.variant, code_version("synthetic"), scene.sensor_model.values, seed, {}};
+  recipe.values["scale"] = scale;
+  recipe.inputs.push_back(hash_hex(scene.toml));
+  for (const auto& file : own_files(scene)) recipe.inputs.push_back(hash_file(file));
+  return recipe;
+}
+
+// Hash over the capture with its truth: the session's own hash leaves the truth out.
+std::string whole_hash(const fs::path& session) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(session / "truth"))
+    if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), session).generic_string());
+  std::sort(names.begin(), names.end());
+  std::string text = session_content_hash(session) + "\n";
+  for (const auto& name : names) text += name + " " + hash_file(session / name) + "\n";
+  return hash_hex(text);
+}
+
+// The record of an intact capture; null otherwise.
+json intact_record(const fs::path& folder) {
+  try {
+    std::ifstream in(folder / "capture.json");
+    const json record = in ? json::parse(in) : json();
+    if (record.is_object() && record.at("content_hash") == whole_hash(folder / "session")) return record;
+  } catch (const json::exception&) {  // a damaged record or session is captured again
+  } catch (const fs::filesystem_error&) {
+  } catch (const InputError&) {
+  }
+  return {};
+}
+
+}  // namespace
+
+StoredCapture stored_capture(const Scene& scene, double scale, Seed seed, ArtifactStore& store,
+                             const SynthesisProgress& progress) {
+  const Recipe recipe = recipe_of(scene, scale, seed);
+  const fs::path folder = store.folder(recipe), session = folder / "session";
+  if (const json record = intact_record(folder); !record.is_null())
+    return {session, recipe, record.value("seconds", 0.0), record.value("peak_memory_mb", 0.0), true};
+
+  fs::remove_all(folder);
+  reset_peak_memory();
+  const auto start = std::chrono::steady_clock::now();
+  const auto capture = synthesize(scene, seed, progress);
+  write_capture_session(session, capture.session);
+  write_ground_truth(session, capture.truth);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const StoredCapture result{session, recipe, seconds.count(), peak_memory_mb(), false};
+  write_file_atomically(folder / "capture.json", json{{"content_hash", whole_hash(session)},
+                                                      {"key", recipe.key()},
+                                                      {"seconds", result.seconds},
+                                                      {"peak_memory_mb", result.peak_memory_mb}}
+                                                         .dump(1) +
+                                                     "\n");
+  return result;
+}
+
+}  // namespace dressform
