@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <opencv2/core.hpp>
 #include <thread>
@@ -76,6 +77,15 @@ Scene chosen_scene(const std::filesystem::path& file, const CommonOptions& optio
   auto& model = scene.sensor_model;
   model.values = SensorModel::at(model.variant).complete(model.values);
   return scene;
+}
+
+std::string variant_text(const CommonOptions& options) {
+  std::vector<std::string> words = options.variants;
+  words.insert(words.end(), options.values.begin(), options.values.end());
+  std::sort(words.begin(), words.end());
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
+  return text.empty() ? "default" : text;
 }
 
 std::filesystem::path store_folder(const CommonOptions& options) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "eval/run/truth_hash.h"
 #include "scenes/capture_session.h"
 #include "scenes/ground_truth.h"
 #include "scenes/hash.h"
@@ -33,13 +34,7 @@ Recipe recipe_of(const Scene& scene, double scale, Seed seed) {
 
 // Hash over the capture with its truth: the session's own hash leaves the truth out.
 std::string whole_hash(const fs::path& session) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(session / "truth"))
-    if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), session).generic_string());
-  std::sort(names.begin(), names.end());
-  std::string text = session_content_hash(session) + "\n";
-  for (const auto& name : names) text += name + " " + hash_file(session / name) + "\n";
-  return hash_hex(text);
+  return hash_hex(session_content_hash(session) + " " + truth_hash(session));
 }
 
 // The record of an intact capture; null otherwise.

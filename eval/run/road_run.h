@@ -1,11 +1,12 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "eval/evaluate.h"
-#include "eval/run/run_folder.h"
+#include "eval/scores.h"
 #include "pipeline/reconstruct.h"
 
 namespace dressform {
@@ -13,16 +14,17 @@ namespace dressform {
 // From a capture session to the files of a run folder. Each step does only what is missing or out of date.
 struct RoadRunRequest {
   std::filesystem::path session, output, store;
-  std::string scene;             // name, for the scores
+  std::string scene, variant;  // names for the scores
   ReconstructionOptions options;
-  bool check_session = true;     // read and check all of it first (recordings); false: it lies in the store, intact
-  nlohmann::json facts;          // for run.json
+  bool check_session = true;   // read and check all of it first (recordings); false: it lies in the store, intact
+  int threads = 1;
+  nlohmann::json facts = nlohmann::json::object();  // more for run.json
 };
 
 struct RoadRunProgress {
   StageProgress stage;
-  std::function<void(const std::string& step)> step;                        // "score", "pictures", "report" begins
-  std::function<void(const std::string& step, bool made_now)> step_finished;
+  std::function<void(const std::string& step)> step;                                         // "scores" begins
+  std::function<void(const std::string& step, bool made_now, double seconds)> step_finished;
 };
 
 struct RoadRunResult {

@@ -27,12 +27,16 @@ std::string processor_name() {
 
 }  // namespace
 
+void RunFolder::check(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw InputError("-o " + folder.string(), "is a file; expected a folder for the run");
+  if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / "run.json"))
+    throw InputError("-o " + folder.string(), "is not empty and holds no run.json; expected a new folder or a run's");
+}
+
 RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), facts_(json::object()), products_(json::object()) {
-  if (fs::exists(folder_) && !fs::is_directory(folder_))
-    throw InputError("-o " + folder_.string(), "is a file; expected a folder for the run");
-  const bool used = fs::exists(folder_) && !fs::is_empty(folder_);
-  if (used && !fs::exists(folder_ / "run.json"))
-    throw InputError("-o " + folder_.string(), "is not empty and holds no run.json; expected a new folder or a run's");
+  check(folder_);
+  const bool used = fs::exists(folder_ / "run.json");
   const json old = read_json_if_intact(folder_ / "run.json");
   if (old.is_object() && old.contains("products") && old["products"].is_object()) products_ = old["products"];
   if (!used) save();

@@ -12,7 +12,10 @@ namespace dressform {
 // what, so that a second run makes only what is missing, damaged or out of date.
 class RunFolder {
  public:
-  // Opens or creates the folder. Throws InputError when `folder` is a file, or holds other things than a run.
+  // Throws InputError when `folder` is a file, or holds other things than a run. Writes nothing.
+  static void check(const std::filesystem::path& folder);
+
+  // Checks, then opens or creates the folder.
   explicit RunFolder(std::filesystem::path folder);
 
   const std::filesystem::path& path() const { return folder_; }

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "eval/cli/commands.h"
+#include "eval/cli/options.h"
+#include "pipeline/artifact_store.h"
+#include "render/renderer.h"
+#include "scenes/mesh_io.h"
+
+namespace dressform {
+namespace {
+
+struct RenderOptionsCli {
+  std::vector<std::filesystem::path> meshes;
+  std::filesystem::path output;
+  std::string shading = "auto", layout = "four";
+  int height = 720;
+};
+
+const std::map<std::string, Shading> kShadings = {{"textured", Shading::textured}, {"unlit", Shading::unlit},
+                                                  {"shaded", Shading::shaded},     {"normals", Shading::normals},
+                                                  {"wireframe", Shading::wireframe}};
+
+bool wants_texture(const std::string& shading) { return shading == "textured" || shading == "unlit"; }
+
+// Meshes that the items of a picture point into.
+struct LoadedMeshes {
+  std::vector<std::unique_ptr<Mesh>> plain;
+  std::vector<std::unique_ptr<TexturedMesh>> textured;
+  std::vector<RenderItem> items;
+
+  void load(const std::filesystem::path& file, const std::string& shading) {
+    RenderItem item;
+    const bool try_texture = shading == "auto" || wants_texture(shading);
+    if (try_texture) try {
+        textured.push_back(std::make_unique<TexturedMesh>(read_textured_mesh(file)));
+        item.textured = textured.back().get();
+        item.shading = shading == "auto" ? Shading::textured : kShadings.at(shading);
+        items.push_back(item);
+        return;
+      } catch (const InputError&) {
+        if (shading != "auto") throw;  // asked for a texture that is not there
+      }
+    plain.push_back(std::make_unique<Mesh>(read_mesh(file)));
+    item.mesh = plain.back().get();
+    item.shading = shading == "auto" ? Shading::shaded : kShadings.at(shading);
+    items.push_back(item);
+  }
+};
+
+int render_meshes(const RenderOptionsCli& options) {
+  LoadedMeshes loaded;
+  for (const auto& file : options.meshes) loaded.load(file, options.shading);
+  Renderer renderer;
+  const cv::Mat picture = options.layout == "four"
+                              ? four_views(renderer, loaded.items, options.height)
+                              : contact_sheet(renderer, loaded.items, 12, 6, options.height);
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  write_file_atomically(options.output, std::string(bytes.begin(), bytes.end()));
+  fmt::print("{} ({} x {})\n", options.output.string(), picture.cols, picture.rows);
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_render_command(CLI::App& app) {
+  auto options = std::make_shared<RenderOptionsCli>();
+  auto* command = app.add_subcommand("render", "Pictures of meshes (OBJ, PLY, GLB), off screen");
+  command->add_option("meshes", options->meshes, "mesh files, drawn together")->required();
+  command->add_option("-o,--output", options->output, "PNG to write")->required();
+  command->add_option("--shading", options->shading, "auto: textured where there is a texture, else shaded")
+      ->check(CLI::IsMember({"auto", "textured", "unlit", "shaded", "normals", "wireframe"}));
+  command->add_option("--layout", options->layout, "four views side by side, or a turntable of twelve")
+      ->check(CLI::IsMember({"four", "turntable"}));
+  command->add_option("--height", options->height, "pixels of one view (default 720)")->check(CLI::Range(64, 4096));
+  command->footer("Example:\n  dressform render runs/group1/out/naked_body.ply runs/group1/out/top.glb -o top.png");
+  return [options] { return render_meshes(*options); };
+}
+
+}  // namespace dressform

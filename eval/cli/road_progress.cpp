@@ -1,0 +1,34 @@
+#include "eval/cli/road_progress.h"
+
+#include <fmt/format.h>
+
+#include "eval/report/score_table.h"
+
+namespace dressform {
+
+RoadRunProgress road_progress(Progress& progress) {
+  RoadRunProgress result;
+  result.stage = [&progress](const StageRecord& record, bool finished) {
+    const std::string what = record.label + " (" + record.recipe.variant + ")";
+    if (!finished)
+      progress.update(what);
+    else
+      progress.finish(what, record.reused ? "reused" : seconds_text(record.seconds) +
+                                                           fmt::format("  {:.0f} MB", record.peak_memory_mb));
+  };
+  result.step = [&progress](const std::string& step) { progress.update(step); };
+  result.step_finished = [&progress](const std::string& step, bool made, double seconds) {
+    progress.finish(step, made ? seconds_text(seconds) : "up to date");
+  };
+  return result;
+}
+
+void print_summary(const RoadRunResult& result) {
+  if (result.scores)
+    fmt::print("\n{}\n", score_table_text(*result.scores));
+  else
+    fmt::print("\nno ground truth in the session: nothing to score\n");
+  fmt::print("report: {}\n", std::filesystem::absolute(result.report).lexically_normal().string());
+}
+
+}  // namespace dressform

@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/scores.h"
+#include "pipeline/reconstruct.h"
+#include "scenes/ground_truth.h"
+
+namespace dressform {
+
+struct ReportInput {
+  const Reconstruction& reconstruction;
+  const CaptureSession& session;
+  const std::optional<Scores>& scores;
+  const GroundTruth* truth;  // null for a recording
+  const nlohmann::json& facts;
+};
+
+// Writes report.html (self-contained: opens from disk, fetches nothing) and renders/*.png into the run folder. Returns
+// the file names, relative to the folder.
+std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder);
+
+}  // namespace dressform
