@@ -1,0 +1,120 @@
+#include "eval/gate/golden_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "pipeline/artifact_store.h"
+#include "scenes/hash.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string pixel_hash(const cv::Mat& picture) {
+  const cv::Mat whole = picture.isContinuous() ? picture : picture.clone();
+  return hash_hex({reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize()});
+}
+
+json read_golden_json(const fs::path& golden, const std::string& name) {
+  const fs::path file = golden / name / "golden.json";
+  std::ifstream in(file);
+  if (!in) throw GoldenError(file.string() + ": missing; expected the reference of case " + name);
+  json text = json::parse(in, nullptr, false);
+  if (!text.is_object() || text.value("format", "") != "dressform-golden")
+    throw GoldenError(file.string() + ": corrupt; expected JSON of format dressform-golden");
+  if (text.value("version", 0) != 1)
+    throw GoldenError(file.string() + ": obsolete; expected version 1");
+  return text;
+}
+
+GoldenCase recipe_from(const json& text, const std::string& name) {
+  GoldenCase result;
+  result.name = name;
+  result.scene = text.at("scene");
+  result.scale = text.at("scale");
+  result.seed = text.at("seed");
+  result.history = text.value("history", std::vector<std::string>());
+  return result;
+}
+
+GoldenScore score_from(const json& row) {
+  const double value = row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : row.at("value").get<double>();
+  return {{row.at("stage"), row.at("metric"), row.at("unit"), value, row.at("status"), 0}, row.at("tolerance")};
+}
+
+cv::Mat picture_from(const fs::path& file, const std::string& hash) {
+  const cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
+  if (picture.empty()) throw GoldenError(file.string() + ": missing or no picture; expected an accepted one");
+  if (pixel_hash(picture) != hash) throw GoldenError(file.string() + ": corrupt; its pixels are not the accepted ones");
+  return picture;
+}
+
+// Runs `read` and turns a JSON complaint into a GoldenError that names the file.
+template <class Read>
+auto reading(const fs::path& golden, const std::string& name, const Read& read) {
+  try {
+    return read(read_golden_json(golden, name));
+  } catch (const json::exception& error) {
+    throw GoldenError((golden / name / "golden.json").string() + ": corrupt (" + error.what() + ")");
+  }
+}
+
+}  // namespace
+
+GoldenCase read_golden_recipe(const fs::path& golden, const std::string& name) {
+  return reading(golden, name, [&](const json& text) { return recipe_from(text, name); });
+}
+
+GoldenCase read_golden_case(const fs::path& golden, const std::string& name) {
+  return reading(golden, name, [&](const json& text) {
+    GoldenCase result = recipe_from(text, name);
+    for (const auto& row : text.at("scores")) result.scores.push_back(score_from(row));
+    if (result.scores.empty())
+      throw GoldenError((golden / name / "golden.json").string() + ": empty; expected accepted scores");
+    if (text.at("pictures").empty())
+      throw GoldenError((golden / name / "golden.json").string() + ": empty; expected accepted pictures");
+    for (const auto& [stem, hash] : text.at("pictures").items())
+      result.pictures[stem] = picture_from(golden / name / (stem + ".png"), hash);
+    return result;
+  });
+}
+
+void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
+  json scores = json::array(), pictures = json::object();
+  for (const auto& score : golden_case.scores)
+    scores.push_back({{"stage", score.row.stage},
+                      {"metric", score.row.metric},
+                      {"unit", score.row.unit},
+                      {"value", std::isfinite(score.row.value) ? json(score.row.value) : json()},
+                      {"status", score.row.status},
+                      {"tolerance", score.tolerance}});
+  for (const auto& [stem, picture] : golden_case.pictures) {
+    std::vector<unsigned char> bytes;
+    cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
+    write_file_atomically(golden / golden_case.name / (stem + ".png"), std::string(bytes.begin(), bytes.end()));
+    pictures[stem] = pixel_hash(picture);
+  }
+  const json text = {{"format", "dressform-golden"}, {"version", 1},
+                     {"scene", golden_case.scene},   {"scale", golden_case.scale},
+                     {"seed", golden_case.seed},     {"history", golden_case.history},
+                     {"scores", scores},             {"pictures", pictures}};
+  write_file_atomically(golden / golden_case.name / "golden.json", text.dump(1) + "\n");
+}
+
+std::vector<std::string> golden_case_names(const fs::path& golden) {
+  std::vector<std::string> names;
+  if (fs::is_directory(golden))
+    for (const auto& entry : fs::directory_iterator(golden))
+      if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  if (names.empty()) throw GoldenError(golden.string() + ": no case; expected folders with a golden.json");
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace dressform

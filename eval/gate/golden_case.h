@@ -1,0 +1,47 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "eval/scores.h"
+
+namespace dressform {
+
+// A reference that is missing, empty, corrupt or obsolete: exit code 3.
+class GoldenError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// One accepted number with the gate's tolerance: how far another compiler, instruction set, thread count or platform may
+// move it. It says nothing about noise seeds.
+struct GoldenScore {
+  ScoreRow row;
+  double tolerance = 0;
+};
+
+// golden/<name>/: golden.json and small pictures.
+struct GoldenCase {
+  std::string name;
+  std::string scene;  // scene file, relative to the folder that holds golden/
+  double scale = 1;
+  Seed seed = 1;
+  std::vector<GoldenScore> scores;
+  std::map<std::string, cv::Mat> pictures;  // file stem -> 8-bit BGR
+  std::vector<std::string> history;         // why each accept was made, oldest first
+};
+
+// How a case is to be run; read even where nothing has been accepted yet. Throws GoldenError naming the file.
+GoldenCase read_golden_recipe(const std::filesystem::path& golden, const std::string& name);
+// The whole case. Throws GoldenError when anything is missing, empty or corrupt (pixels are hashed).
+GoldenCase read_golden_case(const std::filesystem::path& golden, const std::string& name);
+void write_golden_case(const std::filesystem::path& golden, const GoldenCase& golden_case);
+
+// The cases below a golden folder, sorted. Throws GoldenError when there is none.
+std::vector<std::string> golden_case_names(const std::filesystem::path& golden);
+
+}  // namespace dressform
