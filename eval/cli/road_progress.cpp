@@ -23,6 +23,20 @@ RoadRunProgress road_progress(Progress& progress) {
   return result;
 }
 
+SceneRunProgress scene_progress(Progress& progress) {
+  SceneRunProgress result;
+  result.capture = [&progress](int done, int total, const std::string& what) {
+    progress.update("synthesize: " + what, done, total);
+  };
+  result.captured = [&progress](const StoredCapture& capture) {
+    progress.finish("synthesize (" + capture.recipe.variant + ")",
+                    capture.reused ? "reused"
+                                   : seconds_text(capture.seconds) + fmt::format("  {:.0f} MB", capture.peak_memory_mb));
+  };
+  result.road = road_progress(progress);
+  return result;
+}
+
 void print_summary(const RoadRunResult& result) {
   if (result.scores)
     fmt::print("\n{}\n", score_table_text(*result.scores));

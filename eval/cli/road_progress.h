@@ -1,11 +1,13 @@
 #pragma once
 #include "eval/cli/progress.h"
-#include "eval/run/road_run.h"
+#include "eval/run/scene_run.h"
 
 namespace dressform {
 
 // Progress lines of a road run: one a stage, with its time or "reused".
 RoadRunProgress road_progress(Progress& progress);
+// The same with the capture before it.
+SceneRunProgress scene_progress(Progress& progress);
 
 // The score table, what the run cost and where the report is: the last thing a run prints.
 void print_summary(const RoadRunResult& result);

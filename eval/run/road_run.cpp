@@ -29,6 +29,13 @@ json to_json(const StageRecord& record) {
           {"reused", record.reused},   {"code_version", record.recipe.code_version}};
 }
 
+json to_json(const ReconstructionOptions& options) {
+  json values = json::object();
+  for (const auto& [stage, given] : options.values)
+    for (const auto& [name, value] : given) values[stage][name] = to_text(value);
+  return {{"variants", options.variants}, {"values", values}};
+}
+
 // Hash over everything the road made: the contents of the artifacts, whatever made them.
 std::string identity_of(const Reconstruction& made) {
   std::string text = made.calibration.content_hash() + made.naked.content_hash() + made.extracted.content_hash() +
@@ -104,6 +111,8 @@ RoadRunResult run_road(const RoadRunRequest& request, const RoadRunProgress& pro
   folder.facts()["scene"] = request.scene;
   folder.facts()["variant"] = request.variant;
   folder.facts()["seed"] = request.options.seed;
+  folder.facts()["store"] = fs::absolute(request.store).lexically_normal().string();
+  folder.facts()["options"] = to_json(request.options);
   folder.facts()["session"] = {{"path", fs::absolute(request.session).string()},
                                {"content_hash", source.session.content_hash()},
                                {"truth_hash", truth_hash(request.session)}};

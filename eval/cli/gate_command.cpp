@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "eval/cli/commands.h"
+#include "eval/cli/options.h"
+#include "eval/cli/road_progress.h"
+#include "eval/gate/gate.h"
+#include "eval/gate/golden_run.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GateOptions : CommonOptions {
+  std::vector<std::string> cases;
+  fs::path golden = "golden", work = "runs/gate";
+  std::string reason, scene;
+};
+
+void keep_pictures(const GoldenCase& reference, const GoldenRun& run, const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const auto& [stem, picture] : run.pictures) {
+    const auto old = reference.pictures.find(stem);
+    if (old != reference.pictures.end())
+      cv::imwrite((folder / ("new_reference_difference_" + stem + ".png")).string(), flip_picture(picture, old->second));
+  }
+}
+
+ExitCode check_case(const std::string& name, const GateOptions& options, int threads, Progress& progress) {
+  const GoldenCase reference = read_golden_case(options.golden, name);
+  const GoldenRun run = run_golden_case(reference, options.golden, options.work, threads, scene_progress(progress));
+  const GateResult result = compare_with_golden(reference, run.scores, run.pictures);
+  const fs::path kept = options.work / name / "gate";
+  if (result.verdict == GateVerdict::pass) {
+    fmt::print("{}: pass, {} compared\n", name, result.compared);
+    return kSuccess;
+  }
+  keep_pictures(reference, run, kept);
+  const bool obsolete = result.verdict == GateVerdict::obsolete;
+  fmt::print("{}: {}, {} of {}\n", name, obsolete ? "OBSOLETE reference" : "REGRESSION", result.findings.size(),
+             result.compared);
+  for (const auto& finding : result.findings) fmt::print("  {}: {}\n", finding.what, finding.message);
+  fmt::print("  pictures (new, reference, difference x 10): {}\n  to accept: dressform gate accept {} --reason \"...\"\n",
+             kept.string(), name);
+  return obsolete ? kBadGolden : kRegression;
+}
+
+int check(const GateOptions& options) {
+  const ThreadLimit threads(options.threads);
+  Progress progress(options.quiet);
+  ExitCode worst = kSuccess;
+  try {
+    const auto names = options.cases.empty() ? golden_case_names(options.golden) : options.cases;
+    for (const auto& name : names) worst = std::max(worst, check_case(name, options, threads.count(), progress));
+  } catch (const GoldenError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return kBadGolden;
+  }
+  return worst;
+}
+
+// What was accepted before; a new case when there is none and --scene names its scene.
+GoldenCase before(const std::string& name, const GateOptions& options) {
+  if (!options.scene.empty() && !fs::exists(options.golden / name / "golden.json")) {
+    GoldenCase fresh;
+    fresh.name = name;
+    fresh.scene = options.scene;
+    fresh.scale = options.scale;
+    fresh.seed = options.seed;
+    return fresh;
+  }
+  try {
+    return read_golden_case(options.golden, name);
+  } catch (const GoldenError&) {
+    return read_golden_recipe(options.golden, name);  // damaged pictures: all of it is accepted anew
+  }
+}
+
+int accept(const GateOptions& options) {
+  const ThreadLimit threads(options.threads);
+  Progress progress(options.quiet);
+  try {
+    for (const auto& name : options.cases) {
+      const GoldenCase reference = before(name, options);
+      const GoldenRun run =
+          run_golden_case(reference, options.golden, options.work, threads.count(), scene_progress(progress));
+      const GoldenCase next = accepted(reference, run.scores, run.pictures, options.reason);
+      write_golden_case(options.golden, next);
+      fmt::print("{}: accepted; {}\n", name, next.history.back());
+    }
+  } catch (const GoldenError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return kBadGolden;
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_gate_command(CLI::App& app) {
+  auto options = std::make_shared<GateOptions>();
+  auto* command = app.add_subcommand("gate", "Compare runs with the accepted references in golden/");
+  command->require_subcommand(1);
+  auto* checking = command->add_subcommand("check", "Run the cases and compare; never writes to golden/");
+  checking->add_option("cases", options->cases, "cases; default all");
+  auto* accepting = command->add_subcommand("accept", "Run cases and make what is new or beyond tolerance the reference");
+  accepting->add_option("cases", options->cases, "cases")->required();
+  accepting->add_option("--reason", options->reason, "why the change is right; kept in the case's history")->required();
+  accepting->add_option("--scene", options->scene, "for a new case: its scene, relative to the folder of golden/");
+  add_scene_options(*accepting, *options);
+  for (auto* each : {checking, accepting}) {
+    each->add_option("--golden", options->golden, "folder of the references (default golden)");
+    each->add_option("--work", options->work, "folder for the runs (default runs/gate)");
+    add_threads(*each, *options);
+  }
+  command->footer("Example:\n  dressform gate check group1\n"
+                  "  dressform gate accept group1 --reason \"new default for surface: rims 2 mm better\"");
+  return [options, checking] { return checking->parsed() ? check(*options) : accept(*options); };
+}
+
+}  // namespace dressform

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+
+#include "eval/cli/commands.h"
+#include "eval/cli/options.h"
+#include "eval/cli/road_progress.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct ReportOptions : CommonOptions {
+  fs::path run;
+};
+
+// The request that made a run, from its run.json.
+RoadRunRequest recorded_request(const fs::path& run) {
+  const fs::path file = run / "run.json";
+  std::ifstream in(file);
+  if (!in) throw InputError(file.string(), "can't be read; expected the run.json of a run folder");
+  try {
+    json facts = json::parse(in);
+    RoadRunRequest request{facts.at("session").at("path").get<std::string>(), run, facts.at("store").get<std::string>(),
+                           facts.at("scene"), facts.at("variant"), {}};
+    request.options.seed = facts.at("seed");
+    request.options.variants = facts.at("options").at("variants").get<std::map<std::string, std::string>>();
+    for (const auto& [stage, values] : facts.at("options").at("values").items())
+      for (const auto& [name, value] : values.items()) request.options.values[stage][name] = value.get<std::string>();
+    for (const char* key : {"scene_file", "scene_toml", "scale", "sensor_model", "capture"})
+      if (facts.contains(key)) request.facts[key] = facts[key];
+    return request;
+  } catch (const json::exception& error) {
+    throw InputError(file.string(), std::string("damaged (") + error.what() + ")");
+  }
+}
+
+int report_run(const ReportOptions& options) {
+  const ThreadLimit threads(options.threads);
+  RoadRunRequest request = recorded_request(options.run);
+  request.threads = threads.count();
+  fs::remove(options.run / "report.html");  // so that it is written again
+  Progress progress(options.quiet);
+  print_summary(run_road(request, road_progress(progress)));
+  return kSuccess;
+}
+
+}  // namespace
+
+Command add_report_command(CLI::App& app) {
+  auto options = std::make_shared<ReportOptions>();
+  auto* command = app.add_subcommand("report", "Write a run's report and pictures again");
+  command->add_option("run", options->run, "run folder")->required();
+  add_threads(*command, *options);
+  command->footer("Example:\n  dressform report runs/group1");
+  return [options] { return report_run(*options); };
+}
+
+}  // namespace dressform
