@@ -93,8 +93,13 @@ ArtifactRecord ArtifactStore::save(const Recipe& recipe, const std::string& byte
   text["peak_memory_mb"] = peak_memory_mb;
   write_file_atomically(temporary / "data.bin", bytes);
   write_file_atomically(temporary / "artifact.json", text.dump(1) + "\n");
-  fs::remove_all(target);  // a damaged one
-  fs::rename(temporary, target);
+  std::error_code error;
+  if (!find(recipe)) {  // else another process was faster, with the same bytes
+    fs::remove_all(target);  // a damaged one
+    fs::rename(temporary, target, error);
+  }
+  fs::remove_all(temporary);
+  if (error && !find(recipe)) throw fs::filesystem_error("artifact store", temporary, target, error);
   return record;
 }
 

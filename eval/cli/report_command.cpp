@@ -24,8 +24,12 @@ RoadRunRequest recorded_request(const fs::path& run) {
   if (!in) throw InputError(file.string(), "can't be read; expected the run.json of a run folder");
   try {
     json facts = json::parse(in);
-    RoadRunRequest request{facts.at("session").at("path").get<std::string>(), run, facts.at("store").get<std::string>(),
-                           facts.at("scene"), facts.at("variant"), {}};
+    RoadRunRequest request;
+    request.session = facts.at("session").at("path").get<std::string>();
+    request.output = run;
+    request.store = facts.at("store").get<std::string>();
+    request.scene = facts.at("scene");
+    request.variant = facts.at("variant");
     request.options.seed = facts.at("seed");
     request.options.variants = facts.at("options").at("variants").get<std::map<std::string, std::string>>();
     for (const auto& [stage, values] : facts.at("options").at("values").items())
