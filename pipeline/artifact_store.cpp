@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scenes/error.h"
+#include "scenes/file_bytes.h"
 #include "scenes/hash.h"
 
 namespace dressform {
@@ -25,16 +26,6 @@ json to_json(const Recipe& recipe) {
   for (const auto& [name, value] : recipe.values) values[name] = to_json(value);
   return {{"stage", recipe.stage}, {"variant", recipe.variant}, {"code_version", recipe.code_version},
           {"parameters", values},  {"seed", recipe.seed},       {"inputs", recipe.inputs}};
-}
-
-std::string read_all(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) throw std::runtime_error(file.string() + ": can't be read");
-  std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');
-  in.seekg(0);
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw std::runtime_error(file.string() + ": can't be read to its end");
-  return bytes;
 }
 
 fs::path temporary_name(const fs::path& target) {
@@ -59,7 +50,7 @@ std::optional<ArtifactRecord> ArtifactStore::find(const Recipe& recipe) const {
   const fs::path at = folder(recipe);
   try {
     if (!fs::exists(at / "artifact.json")) return {};
-    const json record = json::parse(read_all(at / "artifact.json"));
+    const json record = json::parse(read_file_bytes(at / "artifact.json"));
     ArtifactRecord result{recipe, record.at("content_hash"), record.at("size"), record.at("seconds"),
                           record.at("peak_memory_mb")};
     if (fs::file_size(at / "data.bin") != result.size || hash_file(at / "data.bin") != result.content_hash) return {};
@@ -73,7 +64,7 @@ std::optional<ArtifactRecord> ArtifactStore::find(const Recipe& recipe) const {
 
 std::string ArtifactStore::load(const ArtifactRecord& record) const {
   const fs::path file = folder(record.recipe) / "data.bin";
-  std::string bytes = read_all(file);
+  std::string bytes = read_file_bytes(file);
   if (hash_hex(bytes) != record.content_hash) throw std::runtime_error(file.string() + ": changed while it was in use");
   return bytes;
 }
@@ -94,7 +85,7 @@ ArtifactRecord ArtifactStore::save(const Recipe& recipe, const std::string& byte
   write_file_atomically(temporary / "data.bin", bytes);
   write_file_atomically(temporary / "artifact.json", text.dump(1) + "\n");
   std::error_code error;
-  if (!find(recipe)) {  // else another process was faster, with the same bytes
+  if (!find(recipe)) {       // else another process was faster, with the same bytes
     fs::remove_all(target);  // a damaged one
     fs::rename(temporary, target, error);
   }
@@ -117,18 +108,6 @@ double peak_memory_mb() {
   for (std::string line; std::getline(status, line);)
     if (line.rfind("VmHWM:", 0) == 0) return std::stod(line.substr(6)) / 1024.0;
   return 0;
-}
-
-void write_file_atomically(const fs::path& file, const std::string& bytes) {
-  if (file.has_parent_path()) fs::create_directories(file.parent_path());
-  const fs::path temporary = temporary_name(file);
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out) throw std::runtime_error(file.string() + ": can't be written (disk full or no permission?)");
-  }
-  fs::rename(temporary, file);
 }
 
 }  // namespace dressform

@@ -14,7 +14,7 @@ namespace dressform {
 // What an artifact was made from. Its hash is the artifact's key: no paths, no times.
 struct Recipe {
   std::string stage, variant, code_version;
-  FieldValues values;               // all parameters, defaults included
+  FieldValues values;  // all parameters, defaults included
   Seed seed = 0;
   std::vector<std::string> inputs;  // content hashes of the inputs, in the order of the stage's arguments
 
@@ -54,8 +54,5 @@ std::string code_version(const std::string& stage);
 // Peak resident memory in MB since the last call of reset_peak_memory (Linux; 0 where it can't be told).
 void reset_peak_memory();
 double peak_memory_mb();
-
-// Writes a file so that a reader sees the old or the new one, never half of it. Throws std::runtime_error.
-void write_file_atomically(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace dressform

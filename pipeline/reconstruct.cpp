@@ -35,8 +35,8 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
   const auto closed = road.run<Surface>("surface", session, calibration, naked, registration, filled);
   const auto opened = road.run<Open>("open", session, calibration, naked, registration, segmentation, closed);
   const auto textured = road.run<Texture>("texture", session, calibration, naked, registration, filled, opened);
-  Reconstruction result{source.sensors, calibration, naked,  extracted, registration, segmentation, filled,
-                        closed,         opened,      textured, {},      {},           {},           {}};
+  Reconstruction result{source.sensors, calibration, naked,    extracted, registration, segmentation, filled,
+                        closed,         opened,      textured, {},        {},           {},           {}};
   if (source.scan_user) {
     const auto user_scanner = calibration_of(calibration, source.scan_user_sensor);
     result.user = road.run<Fuse>("fuse_user", *source.scan_user, user_scanner);

@@ -23,10 +23,10 @@ struct ReconstructionOptions {
 // What one stage did in this run.
 struct StageRecord {
   int number = 0;
-  std::string label;          // the stage's name, or "fuse_naked", "fuse_user"
+  std::string label;  // the stage's name, or "fuse_naked", "fuse_user"
   Recipe recipe;
-  std::string key;            // of the recipe: where the artifact lies in the store
-  double seconds = 0;         // of the run that made the artifact
+  std::string key;     // of the recipe: where the artifact lies in the store
+  double seconds = 0;  // of the run that made the artifact
   double peak_memory_mb = 0;
   bool reused = false;
 };

@@ -24,7 +24,8 @@ std::string folder_hash(const fs::path& folder) {
 
 Made<DepthScan> scan_of(const fs::path& folder, const Made<CaptureSession>& session, const std::string& scan,
                         const std::string& sensor) {
-  return {hash_hex(sensor + " " + folder_hash(folder / scan)), [session, scan] { return session.get().scans.at(scan); }};
+  return {hash_hex(sensor + " " + folder_hash(folder / scan)),
+          [session, scan] { return session.get().scans.at(scan); }};
 }
 
 nlohmann::json read_index(const fs::path& file) {
@@ -47,7 +48,8 @@ SessionSource open_session(const fs::path& folder, bool check) {
   try {
     const auto& scans = index.at("scans");
     if (!scans.contains("scan_naked"))
-      throw InputError((at / "session.json").string() + ": scans.scan_naked", "missing; expected the scan of the mannequin");
+      throw InputError((at / "session.json").string() + ": scans.scan_naked",
+                       "missing; expected the scan of the mannequin");
     const std::string naked = scans.at("scan_naked").at("sensor");
     SessionSource source{lazy, scan_of(at, lazy, "scan_naked", naked), {}, index.at("sensors"), naked, {}};
     if (scans.contains("scan_user")) {

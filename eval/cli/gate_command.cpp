@@ -25,7 +25,8 @@ void keep_pictures(const GoldenCase& reference, const GoldenRun& run, const fs::
   for (const auto& [stem, picture] : run.pictures) {
     const auto old = reference.pictures.find(stem);
     if (old != reference.pictures.end())
-      cv::imwrite((folder / ("new_reference_difference_" + stem + ".png")).string(), flip_picture(picture, old->second));
+      cv::imwrite((folder / ("new_reference_difference_" + stem + ".png")).string(),
+                  flip_picture(picture, old->second));
   }
 }
 
@@ -43,8 +44,9 @@ ExitCode check_case(const std::string& name, const GateOptions& options, int thr
   fmt::print("{}: {}, {} of {}\n", name, obsolete ? "OBSOLETE reference" : "REGRESSION", result.findings.size(),
              result.compared);
   for (const auto& finding : result.findings) fmt::print("  {}: {}\n", finding.what, finding.message);
-  fmt::print("  pictures (new, reference, difference x 10): {}\n  to accept: dressform gate accept {} --reason \"...\"\n",
-             kept.string(), name);
+  fmt::print(
+      "  pictures (new, reference, difference x 10): {}\n  to accept: dressform gate accept {} --reason \"...\"\n",
+      kept.string(), name);
   return obsolete ? kBadGolden : kRegression;
 }
 
@@ -106,7 +108,8 @@ Command add_gate_command(CLI::App& app) {
   command->require_subcommand(1);
   auto* checking = command->add_subcommand("check", "Run the cases and compare; never writes to golden/");
   checking->add_option("cases", options->cases, "cases; default all");
-  auto* accepting = command->add_subcommand("accept", "Run cases and make what is new or beyond tolerance the reference");
+  auto* accepting =
+      command->add_subcommand("accept", "Run cases and make what is new or beyond tolerance the reference");
   accepting->add_option("cases", options->cases, "cases")->required();
   accepting->add_option("--reason", options->reason, "why the change is right; kept in the case's history")->required();
   accepting->add_option("--scene", options->scene, "for a new case: its scene, relative to the folder of golden/");
@@ -116,8 +119,9 @@ Command add_gate_command(CLI::App& app) {
     each->add_option("--work", options->work, "folder for the runs (default runs/gate)");
     add_threads(*each, *options);
   }
-  command->footer("Example:\n  dressform gate check group1\n"
-                  "  dressform gate accept group1 --reason \"new default for surface: rims 2 mm better\"");
+  command->footer(
+      "Example:\n  dressform gate check group1\n"
+      "  dressform gate accept group1 --reason \"new default for surface: rims 2 mm better\"");
   return [options, checking] { return checking->parsed() ? check(*options) : accept(*options); };
 }
 

@@ -15,7 +15,8 @@ using namespace dressform;
 constexpr const char* kFooter =
     "Example:\n"
     "  dressform run scenes/library/group1.toml -o runs/group1\n"
-    "Exit codes: 0 success, 1 regression found by the gate, 2 usage or bad input, 3 missing, corrupt or obsolete golden,\n"
+    "Exit codes: 0 success, 1 regression found by the gate, 2 usage or bad input, 3 missing, corrupt or obsolete "
+    "golden,\n"
     "4 crash inside a run.";
 
 int run_program(int argc, char** argv) {

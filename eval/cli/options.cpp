@@ -16,8 +16,7 @@ namespace {
 std::pair<std::string, std::string> split(const std::string& option, const std::string& text, char at,
                                           const std::string& form) {
   const auto position = text.find(at);
-  if (position == std::string::npos || position == 0)
-    throw InputError(option + " " + text, "expected " + form);
+  if (position == std::string::npos || position == 0) throw InputError(option + " " + text, "expected " + form);
   return {text.substr(0, position), text.substr(position + 1)};
 }
 
@@ -25,9 +24,10 @@ std::pair<std::string, std::string> split(const std::string& option, const std::
 
 void add_output(CLI::App& command, CommonOptions& options, const std::string& what) {
   command.add_option("-o,--output", options.output, what);
-  command.add_option("--store", options.store,
-                     "where stage results are kept and found again; default $DRESSFORM_STORE, or .dressform-store beside "
-                     "the output folder");
+  command.add_option(
+      "--store", options.store,
+      "where stage results are kept and found again; default $DRESSFORM_STORE, or .dressform-store beside "
+      "the output folder");
 }
 
 void add_threads(CLI::App& command, CommonOptions& options) {
@@ -39,7 +39,8 @@ void add_threads(CLI::App& command, CommonOptions& options) {
 void add_choices(CLI::App& command, CommonOptions& options) {
   command.add_option("--variant", options.variants, "stage=name: another variant of a stage (repeatable)")
       ->allow_extra_args(false);
-  command.add_option("--set", options.values, "stage.parameter=value: a parameter (repeatable); see dressform variants")
+  command
+      .add_option("--set", options.values, "stage.parameter=value: a parameter (repeatable); see dressform variants")
       ->allow_extra_args(false);
 }
 

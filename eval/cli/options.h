@@ -36,7 +36,8 @@ Choices parse_choices(const CommonOptions& options);
 // The scene file with --scale and the sensor model of --variant and --set applied.
 Scene chosen_scene(const std::filesystem::path& file, const CommonOptions& options);
 
-// The chosen variants and parameters as one word list for the scores: "default" or "surface=rbf_carr fuse.voxel_m=0.003".
+// The chosen variants and parameters as one word list for the scores: "default" or "surface=rbf_carr
+// fuse.voxel_m=0.003".
 std::string variant_text(const CommonOptions& options);
 
 // The store of a run: --store, $DRESSFORM_STORE, or ".dressform-store" beside the output folder.

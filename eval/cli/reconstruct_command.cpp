@@ -19,8 +19,8 @@ int reconstruct_session(ReconstructOptions options) {
   const std::string name = std::filesystem::absolute(options.session).lexically_normal().filename().string();
   if (options.output.empty()) options.output = std::filesystem::path("runs") / name;
   Progress progress(options.quiet);
-  RoadRunRequest request{options.session, options.output, store_folder(options), name, variant_text(options),
-                         choices.reconstruction, true, threads.count()};
+  RoadRunRequest request{options.session,        options.output, store_folder(options), name, variant_text(options),
+                         choices.reconstruction, true,           threads.count()};
   print_summary(run_road(request, road_progress(progress)));
   return kSuccess;
 }

@@ -7,6 +7,7 @@
 #include "eval/cli/options.h"
 #include "pipeline/artifact_store.h"
 #include "render/renderer.h"
+#include "scenes/file_bytes.h"
 #include "scenes/mesh_io.h"
 
 namespace dressform {
@@ -19,8 +20,10 @@ struct RenderOptionsCli {
   int height = 720;
 };
 
-const std::map<std::string, Shading> kShadings = {{"textured", Shading::textured}, {"unlit", Shading::unlit},
-                                                  {"shaded", Shading::shaded},     {"normals", Shading::normals},
+const std::map<std::string, Shading> kShadings = {{"textured", Shading::textured},
+                                                  {"unlit", Shading::unlit},
+                                                  {"shaded", Shading::shaded},
+                                                  {"normals", Shading::normals},
                                                   {"wireframe", Shading::wireframe}};
 
 bool wants_texture(const std::string& shading) { return shading == "textured" || shading == "unlit"; }
@@ -54,9 +57,8 @@ int render_meshes(const RenderOptionsCli& options) {
   LoadedMeshes loaded;
   for (const auto& file : options.meshes) loaded.load(file, options.shading);
   Renderer renderer;
-  const cv::Mat picture = options.layout == "four"
-                              ? four_views(renderer, loaded.items, options.height)
-                              : contact_sheet(renderer, loaded.items, 12, 6, options.height);
+  const cv::Mat picture = options.layout == "four" ? four_views(renderer, loaded.items, options.height)
+                                                   : contact_sheet(renderer, loaded.items, 12, 6, options.height);
   std::vector<unsigned char> bytes;
   cv::imencode(".png", picture, bytes);
   write_file_atomically(options.output, std::string(bytes.begin(), bytes.end()));

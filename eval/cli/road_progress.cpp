@@ -13,8 +13,9 @@ RoadRunProgress road_progress(Progress& progress) {
     if (!finished)
       progress.update(what);
     else
-      progress.finish(what, record.reused ? "reused" : seconds_text(record.seconds) +
-                                                           fmt::format("  {:.0f} MB", record.peak_memory_mb));
+      progress.finish(what, record.reused
+                                ? "reused"
+                                : seconds_text(record.seconds) + fmt::format("  {:.0f} MB", record.peak_memory_mb));
   };
   result.step = [&progress](const std::string& step) { progress.update(step); };
   result.step_finished = [&progress](const std::string& step, bool made, double seconds) {
@@ -29,9 +30,9 @@ SceneRunProgress scene_progress(Progress& progress) {
     progress.update("synthesize: " + what, done, total);
   };
   result.captured = [&progress](const StoredCapture& capture) {
-    progress.finish("synthesize (" + capture.recipe.variant + ")",
-                    capture.reused ? "reused"
-                                   : seconds_text(capture.seconds) + fmt::format("  {:.0f} MB", capture.peak_memory_mb));
+    progress.finish(
+        "synthesize (" + capture.recipe.variant + ")",
+        capture.reused ? "reused" : seconds_text(capture.seconds) + fmt::format("  {:.0f} MB", capture.peak_memory_mb));
   };
   result.road = road_progress(progress);
   return result;

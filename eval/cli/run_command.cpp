@@ -34,7 +34,8 @@ Command add_run_command(CLI::App& app) {
   add_scene_options(*command, *options);
   add_choices(*command, *options);
   add_threads(*command, *options);
-  command->footer("Example:\n  dressform run scenes/library/group1.toml -o runs/group1 --seed 2 --set fuse.voxel_m=0.005");
+  command->footer(
+      "Example:\n  dressform run scenes/library/group1.toml -o runs/group1 --seed 2 --set fuse.voxel_m=0.005");
   return [options] { return run_scene_file(*options); };
 }
 

@@ -8,6 +8,7 @@
 #include "eval/evaluate.h"
 #include "eval/report/score_table.h"
 #include "pipeline/artifact_store.h"
+#include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
 
 namespace dressform {

@@ -39,7 +39,8 @@ int print_variants(const std::string& only) {
     for (const auto& variant : stage.variants)
       print_variant(variant.name, variant.name == stage.default_variant, variant.fields);
   }
-  if (!found) throw InputError("stage " + only, "not known; expected sensor or a stage that `dressform variants` lists");
+  if (!found)
+    throw InputError("stage " + only, "not known; expected sensor or a stage that `dressform variants` lists");
   return kSuccess;
 }
 

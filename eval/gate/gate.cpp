@@ -9,8 +9,8 @@
 namespace dressform {
 namespace {
 
-// Mean absolute difference in 8-bit levels that pictures may show: anti-aliased edges and dithering of texture filtering
-// differ between instruction sets, surfaces do not.
+// Mean absolute difference in 8-bit levels that pictures may show: anti-aliased edges and dithering of texture
+// filtering differ between instruction sets, surfaces do not.
 constexpr double kPictureTolerance = 1.0;
 
 bool within(const GoldenScore& golden, const ScoreRow& now) {
@@ -38,9 +38,9 @@ void compare_scores(const GoldenCase& golden, const Scores& scores, GateResult& 
     if (!now)
       result.findings.push_back({what, "no longer measured"});
     else if (!within(reference, *now))
-      result.findings.push_back({what, fmt::format("reference {:.6g} ({}), new {:.6g} ({}), tolerance {:.3g} {}",
-                                                   reference.row.value, reference.row.status, now->value, now->status,
-                                                   reference.tolerance, now->unit)});
+      result.findings.push_back(
+          {what, fmt::format("reference {:.6g} ({}), new {:.6g} ({}), tolerance {:.3g} {}", reference.row.value,
+                             reference.row.status, now->value, now->status, reference.tolerance, now->unit)});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "pipeline/artifact_store.h"
+#include "scenes/file_bytes.h"
 #include "scenes/hash.h"
 
 namespace dressform {
@@ -28,8 +29,7 @@ json read_golden_json(const fs::path& golden, const std::string& name) {
   json text = json::parse(in, nullptr, false);
   if (!text.is_object() || text.value("format", "") != "dressform-golden")
     throw GoldenError(file.string() + ": corrupt; expected JSON of format dressform-golden");
-  if (text.value("version", 0) != 1)
-    throw GoldenError(file.string() + ": obsolete; expected version 1");
+  if (text.value("version", 0) != 1) throw GoldenError(file.string() + ": obsolete; expected version 1");
   return text;
 }
 
@@ -44,7 +44,8 @@ GoldenCase recipe_from(const json& text, const std::string& name) {
 }
 
 GoldenScore score_from(const json& row) {
-  const double value = row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : row.at("value").get<double>();
+  const double value =
+      row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : row.at("value").get<double>();
   return {{row.at("stage"), row.at("metric"), row.at("unit"), value, row.at("status"), 0}, row.at("tolerance")};
 }
 
@@ -100,10 +101,14 @@ void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
     write_file_atomically(golden / golden_case.name / (stem + ".png"), std::string(bytes.begin(), bytes.end()));
     pictures[stem] = pixel_hash(picture);
   }
-  const json text = {{"format", "dressform-golden"}, {"version", 1},
-                     {"scene", golden_case.scene},   {"scale", golden_case.scale},
-                     {"seed", golden_case.seed},     {"history", golden_case.history},
-                     {"scores", scores},             {"pictures", pictures}};
+  const json text = {{"format", "dressform-golden"},
+                     {"version", 1},
+                     {"scene", golden_case.scene},
+                     {"scale", golden_case.scale},
+                     {"seed", golden_case.seed},
+                     {"history", golden_case.history},
+                     {"scores", scores},
+                     {"pictures", pictures}};
   write_file_atomically(golden / golden_case.name / "golden.json", text.dump(1) + "\n");
 }
 

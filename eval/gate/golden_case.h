@@ -1,11 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <opencv2/core/mat.hpp>
 
 #include "eval/scores.h"
 
@@ -17,8 +16,8 @@ class GoldenError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One accepted number with the gate's tolerance: how far another compiler, instruction set, thread count or platform may
-// move it. It says nothing about noise seeds.
+// One accepted number with the gate's tolerance: how far another compiler, instruction set, thread count or platform
+// may move it. It says nothing about noise seeds.
 struct GoldenScore {
   ScoreRow row;
   double tolerance = 0;

@@ -56,9 +56,10 @@ Figure beside_truth(const std::string& slot, const TexturedMesh& truth, const Te
     above.push_back(renderer.render(view, {unlit(truth)}));
     below.push_back(renderer.render(view, {unlit(estimate)}));
   }
-  return {"heldout_" + slot, slot + ", truth above, reconstruction below",
-          "Unlit texture from 45, 135, 225 and 315 degrees, where no sensor stood.",
-          stacked({titled(side_by_side(above, kHeight), "truth"), titled(side_by_side(below, kHeight), "reconstruction")})};
+  return {
+      "heldout_" + slot, slot + ", truth above, reconstruction below",
+      "Unlit texture from 45, 135, 225 and 315 degrees, where no sensor stood.",
+      stacked({titled(side_by_side(above, kHeight), "truth"), titled(side_by_side(below, kHeight), "reconstruction")})};
 }
 
 }  // namespace

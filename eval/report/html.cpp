@@ -47,11 +47,16 @@ std::string base64(const std::vector<unsigned char>& bytes) {
 std::string html_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
   }
   return result;
 }
@@ -92,8 +97,8 @@ void HtmlPage::figure(const Figure& figure) {
 }
 
 void HtmlPage::preformatted(const std::string& summary, const std::string& text) {
-  body_ += fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n", html_escaped(summary),
-                       html_escaped(text));
+  body_ +=
+      fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n", html_escaped(summary), html_escaped(text));
 }
 
 std::string HtmlPage::text() const {

@@ -1,10 +1,10 @@
 #include "eval/report/report.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
-#include <tbb/parallel_for.h>
 
 #include "eval/report/error_pictures.h"
 #include "eval/report/html.h"
@@ -12,6 +12,7 @@
 #include "eval/report/stage_pictures.h"
 #include "pipeline/artifact_store.h"
 #include "render/renderer.h"
+#include "scenes/file_bytes.h"
 
 namespace dressform {
 namespace {
@@ -19,11 +20,18 @@ namespace {
 namespace fs = std::filesystem;
 using Cell = HtmlPage::Cell;
 
-const std::map<std::string, std::string> kStageTitles = {
-    {"capture", "Capture"},           {"fuse_naked", "Scan of the mannequin"}, {"extract", "Mannequin from the room"},
-    {"registration", "Registration"}, {"segment", "Segmentation"},             {"fill", "Region filling"},
-    {"surface", "Surface"},           {"open", "Openings"},                    {"texture", "Texture"},
-    {"fuse_user", "Scan of the user"}, {"fit", "Fit"},                         {"correct", "Correction"}};
+const std::map<std::string, std::string> kStageTitles = {{"capture", "Capture"},
+                                                         {"fuse_naked", "Scan of the mannequin"},
+                                                         {"extract", "Mannequin from the room"},
+                                                         {"registration", "Registration"},
+                                                         {"segment", "Segmentation"},
+                                                         {"fill", "Region filling"},
+                                                         {"surface", "Surface"},
+                                                         {"open", "Openings"},
+                                                         {"texture", "Texture"},
+                                                         {"fuse_user", "Scan of the user"},
+                                                         {"fit", "Fit"},
+                                                         {"correct", "Correction"}};
 
 void add_scores(HtmlPage& page, const ReportInput& input) {
   page.heading("Scores", "scores");
@@ -32,13 +40,20 @@ void add_scores(HtmlPage& page, const ReportInput& input) {
     return;
   }
   const auto lines = score_lines(*input.scores);
-  const int missed = static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.missed(); }));
-  const int judged = static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.judged(); }));
-  page.verdict(missed ? fmt::format("{} of {} targets missed", missed, judged) : fmt::format("All {} targets met", judged),
-               missed == 0);
+  const int missed =
+      static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.missed(); }));
+  const int judged =
+      static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.judged(); }));
+  page.verdict(
+      missed ? fmt::format("{} of {} targets missed", missed, judged) : fmt::format("All {} targets met", judged),
+      missed == 0);
   std::vector<std::vector<Cell>> rows;
   for (const auto& line : lines)
-    rows.push_back({{line.part, ""}, {line.measure, ""}, {line.value, line.missed() ? "bad" : line.judged() ? "good" : ""},
+    rows.push_back({{line.part, ""},
+                    {line.measure, ""},
+                    {line.value, line.missed()   ? "bad"
+                                 : line.judged() ? "good"
+                                                 : ""},
                     {line.target, "quiet"}});
   page.table({"Part", "Measure", "Value", "Target"}, rows);
 }
@@ -48,8 +63,11 @@ void add_all_scores(HtmlPage& page, const ReportInput& input) {
   page.heading("Every measure", "measures");
   std::vector<std::vector<Cell>> rows;
   for (const auto& row : input.scores->rows)
-    rows.push_back({{row.stage, ""}, {row.metric, ""}, {row.status == "ok" ? fmt::format("{:.4g}", row.value) : "-", ""},
-                    {row.unit, "quiet"}, {row.status, row.status == "failed" ? "bad" : "quiet"},
+    rows.push_back({{row.stage, ""},
+                    {row.metric, ""},
+                    {row.status == "ok" ? fmt::format("{:.4g}", row.value) : "-", ""},
+                    {row.unit, "quiet"},
+                    {row.status, row.status == "failed" ? "bad" : "quiet"},
                     {std::to_string(row.n_samples), "quiet"}});
   page.table({"Stage", "Metric", "Value", "Unit", "Status", "Samples"}, rows);
 }
@@ -60,7 +78,9 @@ void add_costs(HtmlPage& page, const ReportInput& input) {
   double total = 0;
   for (const auto& record : input.reconstruction.records) {
     total += record.seconds;
-    rows.push_back({{record.label, ""}, {record.recipe.variant, ""}, {fmt::format("{:.1f}", record.seconds), ""},
+    rows.push_back({{record.label, ""},
+                    {record.recipe.variant, ""},
+                    {fmt::format("{:.1f}", record.seconds), ""},
                     {fmt::format("{:.0f}", record.peak_memory_mb), ""}});
   }
   rows.push_back({{"together", ""}, {"", ""}, {fmt::format("{:.1f}", total), ""}, {"", ""}});

@@ -43,7 +43,8 @@ cv::Mat color_of(const std::map<std::string, Shot>& shots, const std::string& se
 std::vector<Figure> capture_figures(const Reconstruction& reconstruction, const CaptureSession& session) {
   std::vector<Figure> figures;
   for (const auto& [name, shots] : {std::pair("naked", &session.naked), std::pair("dressed", &session.dressed)}) {
-    add(figures, std::string("capture_") + name + "_color", std::string(name) + ", colour", "As captured, one sensor a column.",
+    add(figures, std::string("capture_") + name + "_color", std::string(name) + ", colour",
+        "As captured, one sensor a column.",
         per_view(reconstruction, [&](const auto& sensor) { return color_of(*shots, sensor); }));
     add(figures, std::string("capture_") + name + "_depth", std::string(name) + ", depth",
         "Depth along the axis from 1.2 m (red) to 4.5 m (blue); black: no measurement.",
@@ -84,7 +85,8 @@ std::vector<Figure> extract_figures(const Reconstruction& reconstruction, const 
       per_view(reconstruction, [&](const auto& sensor) {
         const auto found = views.find(sensor);
         const cv::Mat color = color_of(session.dressed, sensor);
-        return found == views.end() || color.empty() ? cv::Mat() : tinted(color, found->second.dressed_color, {40, 200, 40});
+        return found == views.end() || color.empty() ? cv::Mat()
+                                                     : tinted(color, found->second.dressed_color, {40, 200, 40});
       }));
   return figures;
 }
@@ -150,7 +152,8 @@ std::vector<Figure> segment_figures(const Reconstruction& reconstruction, const 
 std::vector<Figure> fill_figures(const Reconstruction& reconstruction) {
   std::vector<Figure> figures;
   for (const auto& [slot, views] : reconstruction.filled.get().garments)
-    add(figures, "fill_" + slot, slot + ", filled", "The garment cut out of each view; filled-in parts have a magenta edge.",
+    add(figures, "fill_" + slot, slot + ", filled",
+        "The garment cut out of each view; filled-in parts have a magenta edge.",
         per_view(reconstruction, [&, &views = views](const auto& sensor) {
           const auto found = views.find(sensor);
           if (found == views.end() || found->second.color.empty()) return cv::Mat();

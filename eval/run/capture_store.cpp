@@ -7,6 +7,7 @@
 
 #include "eval/run/truth_hash.h"
 #include "scenes/capture_session.h"
+#include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
 #include "scenes/hash.h"
 
@@ -25,7 +26,8 @@ std::vector<fs::path> own_files(const Scene& scene) {
 }
 
 Recipe recipe_of(const Scene& scene, double scale, Seed seed) {
-  Recipe recipe{"synthesize", scene.sensor_model.variant, code_version("synthetic"), scene.sensor_model.values, seed, {}};
+  Recipe recipe{
+      "synthesize", scene.sensor_model.variant, code_version("synthetic"), scene.sensor_model.values, seed, {}};
   recipe.values["scale"] = scale;
   recipe.inputs.push_back(hash_hex(scene.toml));
   for (const auto& file : own_files(scene)) recipe.inputs.push_back(hash_file(file));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "scenes/file_bytes.h"
 #include "scenes/mesh_io.h"
 
 namespace dressform {
@@ -63,8 +64,7 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
   for (const auto& each : reconstruction.textured.get().garments) {
     const auto* slot = &each.first;
     const auto* garment = &each.second;
-    jobs.push_back({*slot + ".ply",
-                    [=](const fs::path& file) { write_textured_ply(file, *garment, *slot + ".png"); }});
+    jobs.push_back({*slot + ".ply", [=](const fs::path& file) { write_textured_ply(file, *garment, *slot + ".png"); }});
     jobs.push_back({*slot + ".glb", [=](const fs::path& file) { write_glb(file, *garment); }});
     jobs.push_back({*slot + ".png", [=](const fs::path& file) { write_png(file, garment->texture); }});
   }
@@ -73,8 +73,8 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
     for (const auto& each : reconstruction.corrected->get().garments) {
       const auto* slot = &each.first;
       const auto* garment = &each.second;
-      jobs.push_back({*slot + "_fitted.ply",
-                      [=](const fs::path& file) { write_textured_ply(file, *garment, *slot + ".png"); }});
+      jobs.push_back(
+          {*slot + "_fitted.ply", [=](const fs::path& file) { write_textured_ply(file, *garment, *slot + ".png"); }});
       jobs.push_back({*slot + "_fitted.glb", [=](const fs::path& file) { write_glb(file, *garment); }});
     }
   }

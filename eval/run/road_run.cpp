@@ -11,6 +11,7 @@
 #include "eval/run/run_folder.h"
 #include "eval/run/stage_folders.h"
 #include "eval/run/truth_hash.h"
+#include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
 #include "scenes/hash.h"
 
@@ -24,8 +25,9 @@ json to_json(const StageRecord& record) {
   json values = json::object();
   for (const auto& [name, value] : record.recipe.values)
     std::visit([&, &name = name](const auto& held) { values[name] = held; }, value);
-  return {{"stage", record.label},     {"variant", record.recipe.variant}, {"parameters", values},
-          {"key", record.key},         {"seconds", record.seconds},        {"peak_memory_mb", record.peak_memory_mb},
+  return {{"stage", record.label},     {"variant", record.recipe.variant},
+          {"parameters", values},      {"key", record.key},
+          {"seconds", record.seconds}, {"peak_memory_mb", record.peak_memory_mb},
           {"reused", record.reused},   {"code_version", record.recipe.code_version}};
 }
 
@@ -136,9 +138,9 @@ RoadRunResult run_road(const RoadRunRequest& request, const RoadRunProgress& pro
   };
   std::string scores_hash = "none";
   if (ground_truth_exists(request.session)) {
-    const std::string scored = hash_hex(folder.product_hash("out") + folder.product_hash("labels") +
-                                        truth_hash(request.session) + request.scene + request.variant +
-                                        std::to_string(request.options.seed) + code_version("eval"));
+    const std::string scored =
+        hash_hex(folder.product_hash("out") + folder.product_hash("labels") + truth_hash(request.session) +
+                 request.scene + request.variant + std::to_string(request.options.seed) + code_version("eval"));
     steps.run("scores", scored, [&] { return write_scores(request, known_truth()); });
     result.scores = scores_from_json(request.output / "scores.json");
     scores_hash = folder.product_hash("scores");

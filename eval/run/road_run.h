@@ -16,14 +16,14 @@ struct RoadRunRequest {
   std::filesystem::path session, output, store;
   std::string scene, variant;  // names for the scores
   ReconstructionOptions options;
-  bool check_session = true;   // read and check all of it first (recordings); false: it lies in the store, intact
+  bool check_session = true;  // read and check all of it first (recordings); false: it lies in the store, intact
   int threads = 1;
   nlohmann::json facts = nlohmann::json::object();  // more for run.json
 };
 
 struct RoadRunProgress {
   StageProgress stage;
-  std::function<void(const std::string& step)> step;                                         // "scores" begins
+  std::function<void(const std::string& step)> step;  // "scores" begins
   std::function<void(const std::string& step, bool made_now, double seconds)> step_finished;
 };
 

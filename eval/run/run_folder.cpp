@@ -5,6 +5,7 @@
 
 #include "pipeline/artifact_store.h"
 #include "scenes/error.h"
+#include "scenes/file_bytes.h"
 #include "scenes/hash.h"
 
 namespace dressform {
@@ -62,15 +63,15 @@ bool RunFolder::product(const std::string& name, const std::string& identity,
   json files = json::object();
   for (const auto& file : make()) files[file] = hash_file(folder_ / file);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  products_[name] = {{"identity", identity},
-                     {"files", files},
-                     {"seconds", seconds.count()},
-                     {"peak_memory_mb", peak_memory_mb()}};
+  products_[name] = {
+      {"identity", identity}, {"files", files}, {"seconds", seconds.count()}, {"peak_memory_mb", peak_memory_mb()}};
   save();
   return true;
 }
 
-std::string RunFolder::product_hash(const std::string& name) const { return hash_hex(products_.at(name).at("files").dump()); }
+std::string RunFolder::product_hash(const std::string& name) const {
+  return hash_hex(products_.at(name).at("files").dump());
+}
 
 void RunFolder::save() const {
   json text = facts_;
@@ -81,8 +82,8 @@ void RunFolder::save() const {
 }
 
 json provenance(int threads) {
-  return {{"dressform", DRESSFORM_VERSION}, {"commit", code_version("commit")},   {"compiler", DRESSFORM_COMPILER},
-          {"flags", DRESSFORM_FLAGS},       {"processor", processor_name()}, {"threads", threads}};
+  return {{"dressform", DRESSFORM_VERSION}, {"commit", code_version("commit")}, {"compiler", DRESSFORM_COMPILER},
+          {"flags", DRESSFORM_FLAGS},       {"processor", processor_name()},    {"threads", threads}};
 }
 
 }  // namespace dressform

@@ -8,8 +8,8 @@
 
 namespace dressform {
 
-// A run's folder and its run.json: what was asked, on what machine, what each stage cost, and which files were made from
-// what, so that a second run makes only what is missing, damaged or out of date.
+// A run's folder and its run.json: what was asked, on what machine, what each stage cost, and which files were made
+// from what, so that a second run makes only what is missing, damaged or out of date.
 class RunFolder {
  public:
   // Throws InputError when `folder` is a file, or holds other things than a run. Writes nothing.

@@ -10,8 +10,8 @@ namespace dressform {
 
 // The whole road from a scene: capture (or the stored one), then run_road.
 struct SceneRunRequest {
-  Scene scene;        // scaled, with its sensor model chosen
-  double scale = 1;   // what it was scaled by, for the records
+  Scene scene;       // scaled, with its sensor model chosen
+  double scale = 1;  // what it was scaled by, for the records
   std::filesystem::path output, store;
   std::string variant = "default";
   ReconstructionOptions options;

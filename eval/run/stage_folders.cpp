@@ -8,7 +8,9 @@ namespace dressform {
 
 namespace fs = std::filesystem;
 
-std::string stage_folder_name(const StageRecord& record) { return fmt::format("{:02}_{}", record.number, record.label); }
+std::string stage_folder_name(const StageRecord& record) {
+  return fmt::format("{:02}_{}", record.number, record.label);
+}
 
 void write_stage_folders(const fs::path& stages, const std::vector<StageRecord>& records, const ArtifactStore& store) {
   std::set<std::string> names;

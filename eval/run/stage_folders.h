@@ -6,8 +6,8 @@
 
 namespace dressform {
 
-// stages/<nn>_<label>/ of a run: artifact.json (parameters, seconds, peak memory, inputs) and a link to the bytes in the
-// store. Folders of an earlier run with other numbers or labels are removed.
+// stages/<nn>_<label>/ of a run: artifact.json (parameters, seconds, peak memory, inputs) and a link to the bytes in
+// the store. Folders of an earlier run with other numbers or labels are removed.
 void write_stage_folders(const std::filesystem::path& stages, const std::vector<StageRecord>& records,
                          const ArtifactStore& store);
 
