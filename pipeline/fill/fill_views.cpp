@@ -1,0 +1,103 @@
+#include "pipeline/fill/fill_views.h"
+
+#include <tbb/parallel_for.h>
+
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "pipeline/common/body_limbs.h"
+
+namespace dressform {
+namespace {
+
+// The body without arms: what carries the garment behind a hanging arm.
+Mesh without_arms(const Mesh& body) {
+  const BodyLimbs limbs = find_limbs(body);
+  Mesh rest{body.vertices, {}};
+  for (std::size_t k = 0; k < body.triangles.size(); ++k)
+    if (limbs.triangle_parts[k] != BodyPart::left_arm && limbs.triangle_parts[k] != BodyPart::right_arm)
+      rest.triangles.push_back(body.triangles[k]);
+  return rest;
+}
+
+FilledGarment nothing(const cv::Size& color, const cv::Size& ir) {
+  return {cv::Mat::zeros(color, CV_8UC3), cv::Mat::zeros(color, CV_8U), cv::Mat::zeros(ir, CV_32F),
+          cv::Mat::zeros(ir, CV_8U)};
+}
+
+GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentView view, const MeshQuery& body,
+                         const HoleParams& holes) {
+  const cv::Mat seen = garment_depth(shot, view.label);
+  const cv::Mat hidden = hidden_depth(shot, view.label, seen, view.calibration.ir, view.model_from_sensor, body, holes);
+  view.garment.color = dressed.color.clone();
+  view.garment.synthetic = hidden > 0;
+  view.garment.depth_mm = seen + hidden;
+  view.garment.mask = view.labels == static_cast<int>(view.label);
+  view.map = color_depth_map(view.garment.depth_mm, view.calibration);
+  const cv::Mat filled = to_color(view.garment.synthetic, view.map);
+  view.garment.mask.setTo(128, filled & (view.garment.mask == 0) & (view.labels > 0));
+  return view;
+}
+
+std::vector<Label> worn(const Segmentation& segmentation) {
+  std::vector<Label> labels;
+  if (segmentation.kinds.count("top")) labels.push_back(Label::top);
+  if (segmentation.kinds.count("bottom")) labels.push_back(Label::bottom);
+  return labels;
+}
+
+bool usable(const CaptureSession& session, const Registration& registration, const Segmentation& segmentation,
+            const SensorCalibration& calibration, const std::string& sensor) {
+  const auto shot = session.dressed.find(sensor);
+  const auto labels = segmentation.labels.find(sensor);
+  return shot != session.dressed.end() && labels != segmentation.labels.end() && calibration.color &&
+         registration.model_from_sensor.count(sensor) && !shot->second.color.empty() &&
+         shot->second.color.size() == labels->second.size();
+}
+
+}  // namespace
+
+FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+                       const Registration& registration, const Segmentation& segmentation,
+                       const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color) {
+  const auto labels = worn(segmentation);
+  const std::size_t sensors = session.sensors.size();
+  const MeshQuery body(without_arms(naked.body));
+  std::vector<std::vector<GarmentView>> views(labels.size(), std::vector<GarmentView>(sensors));
+  tbb::parallel_for(std::size_t{0}, sensors, [&](std::size_t k) {
+    const std::string& sensor = session.sensors[k];
+    const SensorCalibration& calibrated = calibration.sensors.at(sensor);
+    const bool use = usable(session, registration, segmentation, calibrated, sensor);
+    LabelledShot shot;
+    if (use) shot = labelled_shot(session.dressed.at(sensor), calibrated, segmentation.labels.at(sensor), depth);
+    for (std::size_t g = 0; g < labels.size(); ++g) {
+      GarmentView& view = views[g][k];
+      view.sensor = sensor;
+      view.label = labels[g];
+      view.calibration = calibrated;
+      const Camera from = calibrated.color.value_or(Camera{});
+      view.garment = nothing({from.width, from.height}, {calibrated.ir.width, calibrated.ir.height});
+      if (!use) continue;
+      view.labels = segmentation.labels.at(sensor);
+      view.model_from_sensor = registration.model_from_sensor.at(sensor);
+      view = garment_view(session.dressed.at(sensor), shot, view, body, holes);
+    }
+  });
+
+  FilledViews result;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    std::vector<cv::Mat> painted(sensors);
+    tbb::parallel_for(std::size_t{0}, sensors, [&](std::size_t k) {
+      if (cv::countNonZero(views[g][k].garment.mask == 128) > 0) painted[k] = color(views[g], k);
+    });
+    auto& garment = result.garments[labels[g] == Label::top ? "top" : "bottom"];
+    for (std::size_t k = 0; k < sensors; ++k) {
+      FilledGarment filled = views[g][k].garment;
+      if (!painted[k].empty()) painted[k].copyTo(filled.color, filled.mask == 128);
+      garment[session.sensors[k]] = filled;
+    }
+  }
+  return result;
+}
+
+}  // namespace dressform
