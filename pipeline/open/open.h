@@ -39,7 +39,7 @@ struct OpenGarments {
 
 struct OpenTag {
   static constexpr const char* name = "open";
-  static constexpr const char* default_variant = "min_cut_spline";
+  static constexpr const char* default_variant = "limb_spline";
 };
 using Open = Stage<OpenTag, OpenGarments(const CaptureSession&, const Calibration&, const BodyModel& naked,
                                          const Registration&, const Segmentation&, const ClosedGarments&)>;

@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/open/cut.h"
+#include "pipeline/open/mask_edges.h"
+#include "pipeline/open/open.h"
+#include "pipeline/open/openings.h"
+#include "pipeline/open/rim_fit.h"
+
+namespace dressform {
+namespace {
+
+struct LimbSplineParams {
+  RimFitParams fit;
+  MaskEdgeParams edges;
+  double least_coverage = 0.2;
+  double shortest_edge_m = 0.003;
+};
+template <class V>
+void fields(V& v, LimbSplineParams& p) {
+  v("knots", p.fit.knots, 12, 360, "", "knots of a rim's spline");
+  v("smoothness", p.fit.smoothness, 1e-4, 100.0, "", "weight of a rim's second differences against the mask edges");
+  v("first_scale_m", p.fit.first_scale_m, 0.005, 0.3, "m", "scale of the robust weights in the first round");
+  v("last_scale_m", p.fit.last_scale_m, 0.001, 0.1, "m", "scale of the robust weights in the last round");
+  v("rounds", p.fit.rounds, 1, 100, "", "rounds of reweighting");
+  v("inside_px", p.edges.inside_px, 1, 50, "px", "the garment's label has to hold this far inside a mask edge");
+  v("outside_px", p.edges.outside_px, 1, 50, "px", "other labels have to hold this far outside a mask edge");
+  v("least_cosine", p.edges.least_cosine, 0.0, 0.9, "", "mask edges on surface seen at a lower n.v are outlines");
+  v("in_front_m", p.edges.in_front_m, 0.005, 0.2, "m", "something this much nearer hides the rim");
+  v("least_coverage", p.least_coverage, 0.0, 1.0, "", "part of a rim that must be seen for it to count as observed");
+  v("shortest_edge_m", p.shortest_edge_m, 0.0005, 0.02, "m", "shorter edges that the cut leaves are collapsed");
+}
+
+struct Scene {
+  const CaptureSession& session;
+  const Segmentation& segmentation;
+  std::vector<DepthView> views;
+  MeshQuery naked;
+  BodyLimbs limbs;
+};
+
+// Parts of the body under the vertices.
+std::vector<BodyPart> parts_below(const Mesh& mesh, const Scene& scene) {
+  std::vector<BodyPart> parts;
+  for (const Vector3d& v : mesh.vertices) {
+    const int triangle = scene.naked.closest(v).triangle;
+    parts.push_back(triangle < 0 ? BodyPart::torso : scene.limbs.triangle_parts[triangle]);
+  }
+  return parts;
+}
+
+bool belongs(const Opening& opening, BodyPart part, const Vector3d& point, const BodyLimbs& limbs) {
+  if (opening.name == "left_cuff") return part == BodyPart::left_arm;
+  if (opening.name == "right_cuff") return part == BodyPart::right_arm;
+  if (part == BodyPart::left_arm || part == BodyPart::right_arm) return false;
+  if (opening.name == "left_ankle" || opening.name == "right_ankle") {
+    const double side = (point - (limbs.left_leg->root + limbs.right_leg->root) / 2).dot(limbs.left);
+    return point.y() < limbs.crotch_y && (side > 0) == (opening.name == "left_ankle");
+  }
+  return true;
+}
+
+// Where the points that the surface was made from end, in the opening's coordinates: the farthest ones of each sector.
+std::vector<RimSample> support_ends(const PointCloud& support, const Opening& opening, const Scene& scene) {
+  constexpr int kSectors = 24;
+  std::vector<std::vector<double>> sectors(kSectors);
+  for (const Vector3d& p : support.points) {
+    const int triangle = scene.naked.closest(p).triangle;
+    const BodyPart part = triangle < 0 ? BodyPart::torso : scene.limbs.triangle_parts[triangle];
+    if (!belongs(opening, part, p, scene.limbs)) continue;
+    const int sector = static_cast<int>((opening.angle(p) + M_PI) / (2 * M_PI) * kSectors);
+    sectors[std::clamp(sector, 0, kSectors - 1)].push_back(opening.along(p));
+  }
+  std::vector<RimSample> samples;
+  for (int i = 0; i < kSectors; ++i) {
+    auto& values = sectors[i];
+    if (values.size() < 5) continue;
+    std::sort(values.begin(), values.end());
+    samples.push_back({-M_PI + 2 * M_PI * (i + 0.5) / kSectors, values[values.size() - 1 - values.size() / 50], 1});
+  }
+  return samples;
+}
+
+struct PlacedRim {
+  RimCurve curve;
+  bool observed = true;
+};
+
+// The rim from the mask edges; where too little of it was seen, from the ends of the points. A waist that the top hides
+// goes round the body's waist, or as high as the surface reaches.
+PlacedRim place_rim(const Opening& opening, const std::vector<RimSample>& edges, const ClosedGarment& closed,
+                    const Scene& scene, const LimbSplineParams& params) {
+  PlacedRim rim;
+  rim.curve = fit_rim(edges, params.fit);
+  if (rim.curve.coverage >= params.least_coverage) return rim;
+  rim.observed = false;
+  if (opening.name == "waist") {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const Vector3d& v : closed.mesh.vertices) highest = std::max(highest, v.y());
+    const double height = std::min(scene.limbs.waist_y, highest - 0.02);
+    rim.curve.knots.assign(params.fit.knots, height - opening.centre.y());
+    return rim;
+  }
+  rim.curve = fit_rim(support_ends(closed.support, opening, scene), params.fit);
+  return rim;
+}
+
+// The vertex in the middle of what lies beyond the rim: the farthest along, among those over the right part of the
+// body.
+Cap make_cap(const Opening& opening, const RimCurve& curve, const Mesh& mesh, const std::vector<BodyPart>& parts,
+             const BodyLimbs& limbs) {
+  Cap cap;
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vector3d& v = mesh.vertices[i];
+    const double along = opening.along(v);
+    cap.beyond.push_back(along - curve.at(opening.angle(v)));
+    if (!belongs(opening, parts[i], v, limbs) || along <= farthest) continue;
+    farthest = along;
+    cap.pole = static_cast<int>(i);
+  }
+  return cap;
+}
+
+std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGarment& closed, const Scene& scene,
+                                        const LimbSplineParams& params) {
+  const auto kind = scene.segmentation.kinds.find(name);
+  const std::string what = kind != scene.segmentation.kinds.end() ? kind->second : name == "top" ? "shirt" : "skirt";
+  const std::vector<Opening> openings = garment_openings(what, closed.mesh, scene.limbs);
+  if (openings.empty() || closed.mesh.triangles.empty()) return {};
+  const MeshQuery query(closed.mesh);
+  const auto edges = rim_samples(scene.segmentation, name == "top" ? Label::top : Label::bottom, scene.session,
+                                 scene.views, query, scene.naked, scene.limbs, openings, params.edges);
+  const std::vector<BodyPart> parts = parts_below(closed.mesh, scene);
+  std::vector<Cap> caps;
+  std::vector<bool> observed;
+  for (const Opening& opening : openings) {
+    const auto samples = edges.find(opening.name);
+    const PlacedRim rim =
+        place_rim(opening, samples == edges.end() ? std::vector<RimSample>{} : samples->second, closed, scene, params);
+    if (rim.curve.knots.empty()) return {};
+    caps.push_back(make_cap(opening, rim.curve, closed.mesh, parts, scene.limbs));
+    observed.push_back(rim.observed);
+  }
+  const CutResult cut = cut_caps(closed.mesh, caps);
+  if (cut.mesh.triangles.empty()) return {};
+
+  OpenGarment garment;
+  std::vector<Vector3d> centres(openings.size(), Vector3d::Zero());
+  std::vector<int> counts(openings.size(), 0);
+  for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
+    if (cut.cap_of_vertex[i] < 0) continue;
+    centres[cut.cap_of_vertex[i]] += cut.mesh.vertices[i];
+    ++counts[cut.cap_of_vertex[i]];
+  }
+  garment.mesh = without_slivers(cut.mesh, params.shortest_edge_m);
+  const auto loops = boundary_loops(garment.mesh);
+  if (loops.size() != openings.size()) return {};
+  for (const auto& loop : loops) {
+    Vector3d centre = Vector3d::Zero();
+    for (const int v : loop) centre += garment.mesh.vertices[v] / loop.size();
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < openings.size(); ++k)
+      if ((centres[k] / std::max(1, counts[k]) - centre).norm() <
+          (centres[best] / std::max(1, counts[best]) - centre).norm())
+        best = k;
+    Rim rim;
+    rim.name = openings[best].name;
+    rim.observed = observed[best];
+    for (const int v : loop) rim.points.push_back(garment.mesh.vertices[v]);
+    garment.rims.push_back(std::move(rim));
+  }
+  return garment;
+}
+
+// Rims as periodic splines in the coordinates of the limbs, fitted robustly to where the masks end on the closed
+// surface; the surface is cut exactly there. The naked body's limbs say which openings there are.
+OpenGarments limb_spline(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+                         const Registration& registration, const Segmentation& segmentation,
+                         const ClosedGarments& closed, const LimbSplineParams& params) {
+  const Scene scene{session, segmentation, depth_views(session, calibration, registration), MeshQuery(naked.body),
+                    find_limbs(naked.body, front_from_prior(session, registration))};
+  OpenGarments opened;
+  for (const auto& [name, garment] : closed.garments) {
+    auto open = open_garment(name, garment, scene, params);
+    if (open) opened.garments.emplace(name, std::move(*open));
+  }
+  return opened;
+}
+
+const Open::Variant variant{"limb_spline", limb_spline};
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,118 @@
+#include "pipeline/open/openings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dressform {
+namespace {
+
+constexpr double kBelowNeck_m = 0.13;  // the neck's polar centre lies this far below the closed surface's end
+
+Opening cylinder(const std::string& name, const Vector3d& centre, const Vector3d& axis, const Vector3d& front) {
+  Opening opening;
+  opening.name = name;
+  opening.centre = centre;
+  opening.axis = axis.normalized();
+  opening.zero = (front - opening.axis * opening.axis.dot(front)).normalized();
+  return opening;
+}
+
+// Middle of the mesh's section between two heights.
+Vector3d middle(const Mesh& mesh, double low, double high, const Vector3d& otherwise) {
+  Vector3d least = Vector3d::Constant(std::numeric_limits<double>::infinity()), most = -least;
+  for (const Vector3d& v : mesh.vertices) {
+    if (v.y() < low || v.y() > high) continue;
+    least = least.cwiseMin(v);
+    most = most.cwiseMax(v);
+  }
+  return least.x() > most.x() ? otherwise : Vector3d((least + most) / 2);
+}
+
+}  // namespace
+
+double Opening::along(const Vector3d& point) const {
+  const Vector3d d = point - centre;
+  if (shape == Shape::cylinder) return d.dot(axis);
+  return -kPolarRadius_m * std::atan2((d - axis * axis.dot(d)).norm(), axis.dot(d));
+}
+
+double Opening::angle(const Vector3d& point) const {
+  const Vector3d d = point - centre;
+  return std::atan2(d.dot(axis.cross(zero)), d.dot(zero));
+}
+
+std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const BodyLimbs& limbs) {
+  std::vector<Opening> openings;
+  if (closed.vertices.empty()) return openings;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector3d& v : closed.vertices) {
+    low = std::min(low, v.y());
+    high = std::max(high, v.y());
+  }
+  const Vector3d up = Vector3d::UnitY();
+  if (kind == "shirt" || kind == "dress") {
+    if (!limbs.left_arm || !limbs.right_arm) return {};
+    Vector3d neck = middle(closed, high - 0.03, high, limbs.neck);
+    neck.y() = high - kBelowNeck_m;
+    Opening opening = cylinder("neck", neck, up, limbs.front);
+    opening.shape = Opening::Shape::polar;
+    openings.push_back(opening);
+    openings.push_back(cylinder("left_cuff", limbs.left_arm->root, limbs.left_arm->direction, limbs.front));
+    openings.push_back(cylinder("right_cuff", limbs.right_arm->root, limbs.right_arm->direction, limbs.front));
+    Vector3d waist = limbs.neck;
+    waist.y() = limbs.waist_y;
+    openings.push_back(cylinder("hem", waist, -up, limbs.front));
+    return openings;
+  }
+  const Vector3d waist = middle(closed, high - 0.06, high, Vector3d(0, high, 0));
+  if (kind == "trousers") {
+    if (!limbs.left_leg || !limbs.right_leg) return {};
+    openings.push_back(cylinder("waist", waist, up, limbs.front));
+    openings.push_back(cylinder("left_ankle", limbs.left_leg->root, limbs.left_leg->direction, limbs.front));
+    openings.push_back(cylinder("right_ankle", limbs.right_leg->root, limbs.right_leg->direction, limbs.front));
+  } else if (kind == "skirt") {
+    openings.push_back(cylinder("waist", waist, up, limbs.front));
+    openings.push_back(cylinder("hem", middle(closed, low, low + 0.06, waist), -up, limbs.front));
+  }
+  return openings;
+}
+
+const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,
+                            const BodyLimbs& limbs) {
+  const auto named = [&](const char* name) -> const Opening* {
+    for (const Opening& opening : openings)
+      if (opening.name == name) return &opening;
+    return nullptr;
+  };
+  const bool top = named("neck") != nullptr;
+  if (top) {
+    if (part == BodyPart::left_arm) return named("left_cuff");
+    if (part == BodyPart::right_arm) return named("right_cuff");
+    return named(point.y() > (limbs.armpit_y + limbs.waist_y) / 2 ? "neck" : "hem");
+  }
+  if (part == BodyPart::left_arm || part == BodyPart::right_arm) part = BodyPart::torso;
+  if (point.y() > (limbs.waist_y + limbs.crotch_y) / 2 || (part == BodyPart::torso && point.y() > limbs.crotch_y))
+    return named("waist");
+  if (named("hem")) return named("hem");
+  const Vector3d middle = limbs.left_leg && limbs.right_leg
+                              ? Vector3d((limbs.left_leg->root + limbs.right_leg->root) / 2)
+                              : Vector3d::Zero();
+  const double side = (point - middle).dot(limbs.left);
+  return named(part == BodyPart::left_leg || (part != BodyPart::right_leg && side > 0) ? "left_ankle" : "right_ankle");
+}
+
+std::optional<Vector3d> front_from_prior(const CaptureSession& session, const Registration& registration) {
+  if (!session.prior) return {};
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& [name, model_from_sensor] : registration.model_from_sensor) {
+    const auto world_from_sensor = session.prior->world_from_sensor.find(name);
+    if (world_from_sensor == session.prior->world_from_sensor.end()) continue;
+    sum += model_from_sensor.linear() * world_from_sensor->second.linear().transpose() * Vector3d::UnitZ();
+  }
+  sum.y() = 0;
+  if (sum.norm() < 0.3) return {};
+  return Vector3d(sum.normalized());
+}
+
+}  // namespace dressform

@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+namespace dressform {
+
+// A point of a rim in the coordinates of its opening.
+struct RimSample {
+  double angle = 0;  // radians
+  double along = 0;  // metres
+  double weight = 1;
+};
+
+// A closed curve along(angle): a periodic spline on evenly spaced knots.
+struct RimCurve {
+  std::vector<double> knots;  // values at angle = -pi + 2 pi i / size
+  double coverage = 0;        // part of the angles that have samples close to the curve
+  double residual_rms_m = 0;  // of the samples that count
+  int inliers = 0;
+
+  double at(double angle) const;
+};
+
+struct RimFitParams {
+  int knots = 72;
+  double smoothness = 0.3;      // weight of the curve's second differences against the samples
+  double first_scale_m = 0.06;  // Tukey's scale at the start ...
+  double last_scale_m = 0.008;  // ... and at the end
+  int rounds = 12;
+};
+
+// Robust fit by iteratively reweighted least squares: Tukey's weights, their scale shrinking from round to round.
+// Angles without samples are bridged smoothly. No samples: no knots.
+RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& params);
+
+}  // namespace dressform
