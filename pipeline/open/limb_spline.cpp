@@ -21,6 +21,7 @@ template <class V>
 void fields(V& v, LimbSplineParams& p) {
   v("knots", p.fit.knots, 12, 360, "", "knots of a rim's spline");
   v("smoothness", p.fit.smoothness, 1e-4, 100.0, "", "weight of a rim's second differences against the mask edges");
+  v("first_smoothness", p.fit.first_smoothness, 1e-4, 1e6, "", "the same in the first round");
   v("first_scale_m", p.fit.first_scale_m, 0.005, 0.3, "m", "scale of the robust weights in the first round");
   v("last_scale_m", p.fit.last_scale_m, 0.001, 0.1, "m", "scale of the robust weights in the last round");
   v("rounds", p.fit.rounds, 1, 100, "", "rounds of reweighting");
@@ -28,6 +29,7 @@ void fields(V& v, LimbSplineParams& p) {
   v("outside_px", p.edges.outside_px, 1, 50, "px", "other labels have to hold this far outside a mask edge");
   v("least_cosine", p.edges.least_cosine, 0.0, 0.9, "", "mask edges on surface seen at a lower n.v are outlines");
   v("in_front_m", p.edges.in_front_m, 0.005, 0.2, "m", "something this much nearer hides the rim");
+  v("goes_on_m", p.edges.goes_on_m, 0.0, 0.2, "m", "the closed surface has to go on this far beyond a rim");
   v("least_coverage", p.least_coverage, 0.0, 1.0, "", "part of a rim that must be seen for it to count as observed");
   v("shortest_edge_m", p.shortest_edge_m, 0.0005, 0.02, "m", "shorter edges that the cut leaves are collapsed");
 }
@@ -82,6 +84,20 @@ std::vector<RimSample> support_ends(const PointCloud& support, const Opening& op
   return samples;
 }
 
+// The mask edges, and the ends of the points in sectors without edges: ankles are often below the colour picture, where
+// only the depth tells how far the cloth goes.
+std::vector<RimSample> completed(std::vector<RimSample> edges, const std::vector<RimSample>& ends) {
+  const std::size_t seen = edges.size();
+  for (const RimSample& end : ends) {
+    bool covered = false;
+    for (std::size_t i = 0; i < seen && !covered; ++i)
+      covered = std::abs(std::remainder(edges[i].angle - end.angle, 2 * M_PI)) < 0.15 &&
+                std::abs(edges[i].along - end.along) < 0.1;
+    if (!covered) edges.push_back(end);
+  }
+  return edges;
+}
+
 struct PlacedRim {
   RimCurve curve;
   bool observed = true;
@@ -93,7 +109,11 @@ PlacedRim place_rim(const Opening& opening, const std::vector<RimSample>& edges,
                     const Scene& scene, const LimbSplineParams& params) {
   PlacedRim rim;
   rim.curve = fit_rim(edges, params.fit);
-  if (rim.curve.coverage >= params.least_coverage) return rim;
+  const bool ankle = opening.name == "left_ankle" || opening.name == "right_ankle";
+  if (rim.curve.coverage >= params.least_coverage) {
+    if (ankle) rim.curve = fit_rim(completed(edges, support_ends(closed.support, opening, scene)), params.fit);
+    return rim;
+  }
   rim.observed = false;
   if (opening.name == "waist") {
     double highest = -std::numeric_limits<double>::infinity();
@@ -123,30 +143,17 @@ Cap make_cap(const Opening& opening, const RimCurve& curve, const Mesh& mesh, co
   return cap;
 }
 
-std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGarment& closed, const Scene& scene,
-                                        const LimbSplineParams& params) {
-  const auto kind = scene.segmentation.kinds.find(name);
-  const std::string what = kind != scene.segmentation.kinds.end() ? kind->second : name == "top" ? "shirt" : "skirt";
-  const std::vector<Opening> openings = garment_openings(what, closed.mesh, scene.limbs);
-  if (openings.empty() || closed.mesh.triangles.empty()) return {};
-  const MeshQuery query(closed.mesh);
-  const auto edges = rim_samples(scene.segmentation, name == "top" ? Label::top : Label::bottom, scene.session,
-                                 scene.views, query, scene.naked, scene.limbs, openings, params.edges);
-  const std::vector<BodyPart> parts = parts_below(closed.mesh, scene);
-  std::vector<Cap> caps;
-  std::vector<bool> observed;
-  for (const Opening& opening : openings) {
-    const auto samples = edges.find(opening.name);
-    const PlacedRim rim =
-        place_rim(opening, samples == edges.end() ? std::vector<RimSample>{} : samples->second, closed, scene, params);
-    if (rim.curve.knots.empty()) return {};
-    caps.push_back(make_cap(opening, rim.curve, closed.mesh, parts, scene.limbs));
-    observed.push_back(rim.observed);
-  }
-  const CutResult cut = cut_caps(closed.mesh, caps);
-  if (cut.mesh.triangles.empty()) return {};
+// All that is known of a garment before its rims are fitted.
+struct Work {
+  std::string kind;
+  std::vector<Opening> openings;
+  std::map<std::string, std::vector<RimSample>> edges;
+  std::vector<BodyPart> parts;  // below the vertices
+};
 
-  OpenGarment garment;
+// The loops of the open mesh, each named after the opening whose cut is nearest.
+std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::vector<Opening>& openings,
+                            const std::vector<bool>& observed) {
   std::vector<Vector3d> centres(openings.size(), Vector3d::Zero());
   std::vector<int> counts(openings.size(), 0);
   for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
@@ -154,24 +161,64 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
     centres[cut.cap_of_vertex[i]] += cut.mesh.vertices[i];
     ++counts[cut.cap_of_vertex[i]];
   }
-  garment.mesh = without_slivers(cut.mesh, params.shortest_edge_m);
-  const auto loops = boundary_loops(garment.mesh);
-  if (loops.size() != openings.size()) return {};
-  for (const auto& loop : loops) {
+  std::vector<Rim> rims;
+  for (const auto& loop : boundary_loops(mesh)) {
     Vector3d centre = Vector3d::Zero();
-    for (const int v : loop) centre += garment.mesh.vertices[v] / loop.size();
+    for (const int v : loop) centre += mesh.vertices[v] / loop.size();
     std::size_t best = 0;
-    for (std::size_t k = 1; k < openings.size(); ++k)
-      if ((centres[k] / std::max(1, counts[k]) - centre).norm() <
-          (centres[best] / std::max(1, counts[best]) - centre).norm())
-        best = k;
-    Rim rim;
-    rim.name = openings[best].name;
-    rim.observed = observed[best];
-    for (const int v : loop) rim.points.push_back(garment.mesh.vertices[v]);
-    garment.rims.push_back(std::move(rim));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < openings.size(); ++k) {
+      const double distance = (centres[k] / std::max(1, counts[k]) - centre).norm();
+      if (distance < nearest) best = k;
+      nearest = std::min(nearest, distance);
+    }
+    Rim rim{openings[best].name, {}, observed[best]};
+    for (const int v : loop) rim.points.push_back(mesh.vertices[v]);
+    rims.push_back(std::move(rim));
   }
+  return rims;
+}
+
+// Cuts at rims of the given stiffness; absent when that does not give one piece with one loop for each opening.
+std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& work, const Scene& scene,
+                                    const LimbSplineParams& params) {
+  std::vector<Cap> caps;
+  std::vector<bool> observed;
+  for (const Opening& opening : work.openings) {
+    const auto samples = work.edges.find(opening.name);
+    const PlacedRim rim = place_rim(opening, samples == work.edges.end() ? std::vector<RimSample>{} : samples->second,
+                                    closed, scene, params);
+    if (rim.curve.knots.empty()) return {};
+    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, scene.limbs));
+    observed.push_back(rim.observed);
+  }
+  const CutResult cut = cut_caps(closed.mesh, caps);
+  if (cut.mesh.triangles.empty()) return {};
+  OpenGarment garment;
+  garment.mesh = without_slivers(cut.mesh, params.shortest_edge_m);
+  const Topology t = topology(garment.mesh);
+  const int loops = static_cast<int>(work.openings.size());
+  if (t.loops != loops || t.components != 1 || t.non_manifold_edges || t.euler() != 2 - loops) return {};
+  garment.rims = named_rims(garment.mesh, cut, work.openings, observed);
   return garment;
+}
+
+std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGarment& closed, const Scene& scene,
+                                        LimbSplineParams params) {
+  if (closed.mesh.triangles.empty()) return {};
+  Work work;
+  const auto kind = scene.segmentation.kinds.find(name);
+  work.kind = kind != scene.segmentation.kinds.end() ? kind->second : name == "top" ? "shirt" : "skirt";
+  work.openings = garment_openings(work.kind, closed.mesh, scene.limbs);
+  if (work.openings.empty()) return {};
+  work.edges = rim_samples(scene.segmentation, name == "top" ? Label::top : Label::bottom, scene.session, scene.views,
+                           MeshQuery(closed.mesh), scene.naked, scene.limbs, work.openings, params.edges);
+  work.parts = parts_below(closed.mesh, scene);
+  for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20) {  // stiffer, should the soft rims cross
+    auto garment = cut_open(closed, work, scene, params);
+    if (garment) return garment;
+  }
+  return {};
 }
 
 // Rims as periodic splines in the coordinates of the limbs, fitted robustly to where the masks end on the closed

@@ -69,11 +69,15 @@ std::optional<std::pair<Vector3d, double>> rim_point(const ColorView& view, cons
   if (!hit) return {};
   const double cosine = -closed.normal(hit->triangle).dot(ray) / ray.norm();
   if (cosine < params.least_cosine) return {};
-  const double step = params.outside_px;
-  const auto further = closed.first_hit(view.centre, view.ray(edge.x + step * edge.dx, edge.y + step * edge.dy));
+  // The surface goes on beyond the edge (else it is an outline), and nothing lies before it on either side.
+  const double step =
+      std::max<double>(params.outside_px, params.goes_on_m * view.depth->sensor->color->fx / hit->distance);
+  const Vector3d ray_beyond = view.ray(edge.x + step * edge.dx, edge.y + step * edge.dy);
+  const auto further = closed.first_hit(view.centre, ray_beyond);
   if (!further || std::abs(further->distance - hit->distance) > 0.05) return {};
-  const auto body = naked.first_hit(view.centre, ray);
+  const auto body = naked.first_hit(view.centre, ray), body_beyond = naked.first_hit(view.centre, ray_beyond);
   if (body && body->distance < hit->distance - params.in_front_m) return {};
+  if (body_beyond && body_beyond->distance < further->distance - params.in_front_m) return {};
   if (hidden(*view.depth, hit->point, 2 * params.in_front_m)) return {};
   return std::make_pair(hit->point, cosine);
 }

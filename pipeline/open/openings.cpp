@@ -7,7 +7,7 @@
 namespace dressform {
 namespace {
 
-constexpr double kBelowNeck_m = 0.13;  // the neck's polar centre lies this far below the closed surface's end
+constexpr double kBelowNeck_m = 0.20;  // the neck's polar centre lies this far below the closed surface's end
 
 Opening cylinder(const std::string& name, const Vector3d& centre, const Vector3d& axis, const Vector3d& front) {
   Opening opening;

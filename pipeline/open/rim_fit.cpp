@@ -8,6 +8,8 @@
 namespace dressform {
 namespace {
 
+constexpr double kTension = 0.1;  // of first differences: angles without samples are bridged without swinging out
+
 struct Place {
   int knot;     // and the next one
   double part;  // of the way to the next
@@ -64,7 +66,7 @@ Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::Vector
     const double second[3] = {1, -2, 1}, first[3] = {1, -1, 0};
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
-        normal(at[r], at[c]) += smoothness * second[r] * second[c] + 1e-3 * smoothness * first[r] * first[c];
+        normal(at[r], at[c]) += smoothness * (second[r] * second[c] + kTension * first[r] * first[c]);
   }
   return normal.ldlt().solve(right);
 }
@@ -93,7 +95,8 @@ RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& para
     for (std::size_t i = 0; i < samples.size(); ++i)
       weights[i] = samples[i].weight * tukey(samples[i].along - curve.at(samples[i].angle), scale);
     if (weights.sum() < 1e-9) break;
-    const Eigen::VectorXd solution = solve(samples, weights, params.smoothness, count);
+    const double smoothness = params.first_smoothness * std::pow(params.smoothness / params.first_smoothness, part);
+    const Eigen::VectorXd solution = solve(samples, weights, smoothness, count);
     curve.knots.assign(solution.data(), solution.data() + count);
   }
   std::vector<char> covered(36, 0);

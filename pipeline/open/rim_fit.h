@@ -22,13 +22,15 @@ struct RimCurve {
 
 struct RimFitParams {
   int knots = 72;
-  double smoothness = 0.3;      // weight of the curve's second differences against the samples
-  double first_scale_m = 0.06;  // Tukey's scale at the start ...
-  double last_scale_m = 0.008;  // ... and at the end
+  double smoothness = 0.3;        // weight of the curve's second differences against the samples, in the last round
+  double first_smoothness = 3e3;  // in the first round: next to a tilted circle
+  double first_scale_m = 0.06;    // Tukey's scale at the start ...
+  double last_scale_m = 0.008;    // ... and at the end
   int rounds = 12;
 };
 
-// Robust fit by iteratively reweighted least squares: Tukey's weights, their scale shrinking from round to round.
+// Robust fit by iteratively reweighted least squares: Tukey's weights. From round to round their scale shrinks and the
+// curve softens, so that a stray group of samples has lost its weight before the curve could bend to it.
 // Angles without samples are bridged smoothly. No samples: no knots.
 RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& params);
 

@@ -10,7 +10,8 @@ namespace {
 constexpr double kEndQuantile = 0.003;  // of the points, beyond which an end does not reach
 constexpr int kTubeSides = 72;
 constexpr double kTubeStep_m = 0.02;
-constexpr double kBeyond_m = 0.04;  // body kept past the caps, so that the surface runs straight up to them
+constexpr double kForkSeam_m = 0.015;  // limbs are told apart this far below the armpit or crotch
+constexpr double kBeyond_m = 0.04;     // body kept past the caps, so that the surface runs straight up to them
 
 double quantile(std::vector<double> values, double part) {
   if (values.empty()) return 0;
@@ -209,6 +210,21 @@ CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const s
       tube_(!extent.forked && extent.bottom_y < limbs.crotch_y + 0.06
                 ? leg_tube(naked.mesh(), limbs, extent.bottom_y - margin_m - kBeyond_m)
                 : Mesh{}) {
+  const auto part_is = [&](auto&& wanted) {
+    std::vector<bool> part(kept_.size());
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = kept_[i] && wanted(limbs.triangle_parts[i]);
+    return MeshQuery(only(naked.mesh(), part));
+  };
+  for (int side = 0; side < 2 && garment == "top"; ++side) {
+    if (!extent.has_arm[side]) continue;
+    const BodyPart arm = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
+    forks_.push_back({part_is([arm](BodyPart part) { return part == arm; }),
+                      part_is([arm](BodyPart part) { return part != arm; }), limbs.arm(side)->fork_y - kForkSeam_m});
+  }
+  if (extent.forked)
+    forks_.push_back({part_is([](BodyPart part) { return part == BodyPart::left_leg; }),
+                      part_is([](BodyPart part) { return part == BodyPart::right_leg; }),
+                      limbs.crotch_y - kForkSeam_m});
   bool first = true;
   for (const Mesh* mesh : {&covered_.mesh(), &tube_.mesh()})
     for (const Vector3d& v : mesh->vertices) {
@@ -221,15 +237,28 @@ CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const s
   high_.y() = std::min(high_.y(), extent.top_y + margin_m);
 }
 
-double CoveredBody::signed_distance(const Vector3d& point) const {
-  const auto closest = covered_.closest(point);
+double CoveredBody::signed_distance(const Vector3d& point, double bound_m) const {
+  const auto closest = covered_.closest(point, bound_m);
   double distance = closest.distance;
-  if (closest.triangle >= 0) {
+  if (closest.triangle >= 0 && covered_.signed_distance(point, closest) < 0) {
+    // Inside, unless it lies in a limb that was taken away.
     const auto nearest = naked_.closest(point, distance + 1e-6);
-    if (nearest.triangle >= 0 && kept_[nearest.triangle] && naked_.signed_distance(point, nearest) < 0)
-      distance = -distance;
+    if (nearest.triangle < 0 || kept_[nearest.triangle]) distance = -distance;
   }
-  return std::min(distance, tube_.signed_distance(point));
+  const auto tube = tube_.closest(point, std::min(bound_m, std::abs(distance)));
+  return tube.triangle < 0 ? distance : std::min(distance, tube_.signed_distance(point, tube));
+}
+
+double CoveredBody::from_crevice(const Vector3d& point, double bound_m) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Fork& fork : forks_) {
+    if (point.y() > fork.below_y) continue;
+    const double limb = fork.limb.closest(point).distance;
+    if (!std::isfinite(limb)) continue;
+    const double other = fork.other.closest(point, limb + 2 * bound_m).distance;
+    if (std::isfinite(other)) nearest = std::min(nearest, std::abs(limb - other) / 2);
+  }
+  return nearest;
 }
 
 double CoveredBody::beyond_ends(const Vector3d& point) const {

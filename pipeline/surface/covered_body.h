@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 #include <string>
 
 #include "pipeline/common/body_limbs.h"
@@ -29,11 +30,17 @@ class CoveredBody {
   CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment, const GarmentExtent& extent,
               double margin_m);
 
-  // Distance to its surface, metres, negative inside. Positive infinity if nothing is covered.
-  double signed_distance(const Vector3d& point) const;
+  // Distance to its surface, metres, negative inside. Positive infinity if nothing is covered, or if nothing lies
+  // within `bound_m`.
+  double signed_distance(const Vector3d& point, double bound_m = std::numeric_limits<double>::infinity()) const;
 
   // Distance beyond the ends of the garment plus the margin: positive there, negative within.
   double beyond_ends(const Vector3d& point) const;
+
+  // How far the point is from the middle between two limbs that a garment goes round one by one (arm and trunk below
+  // the armpit, leg and leg below the crotch): zero half way, positive elsewhere; infinity above the fork, or where
+  // that is more than `bound_m`. Cloth that touches there is still two sheets.
+  double from_crevice(const Vector3d& point, double bound_m) const;
 
   // Box of the covered body, cut at the ends.
   const Vector3d& low() const { return low_; }
@@ -46,6 +53,11 @@ class CoveredBody {
   double margin_m_;
   std::vector<bool> kept_;  // of the naked triangles
   MeshQuery covered_, tube_;
+  struct Fork {
+    MeshQuery limb, other;
+    double below_y;
+  };
+  std::vector<Fork> forks_;
   Vector3d low_ = Vector3d::Zero(), high_ = Vector3d::Zero();
 };
 

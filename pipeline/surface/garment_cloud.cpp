@@ -93,6 +93,43 @@ LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y,
   return plane;
 }
 
+bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
+
+// The garment's depth image with what joins it outside the colour camera's picture and stands off the naked legs.
+cv::Mat extended_depth(const cv::Mat& garment_mm, const DepthView& view, const MeshQuery& naked, const BodyLimbs& limbs,
+                       const GarmentCloudParams& params) {
+  cv::Mat result = garment_mm.clone();
+  if (!view.sensor->color) return result;
+  std::vector<cv::Point> front;
+  for (int y = 0; y < result.rows; ++y)
+    for (int x = 0; x < result.cols; ++x)
+      if (result.at<float>(y, x) > 0) front.emplace_back(x, y);
+  while (!front.empty()) {
+    const cv::Point at = front.back();
+    front.pop_back();
+    for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+      const cv::Point next = at + step;
+      if (next.x < 0 || next.y < 0 || next.x >= result.cols || next.y >= result.rows || result.at<float>(next) > 0)
+        continue;
+      const float z = view.depth_mm.at<float>(next);
+      if (z <= 0 || std::abs(z - result.at<float>(at)) > params.jump_mm) continue;
+      const cv::Vec2f& ray = view.rays.at<cv::Vec2f>(next);
+      const Vector3d seen = Vector3d(ray[0], ray[1], 1) * (z / 1000.0);
+      const Vector3d in_color = view.sensor->color_from_ir * seen;
+      if (in_color.z() > 0.1 && view.sensor->color->contains(view.sensor->color->project(in_color))) continue;
+      const LocalPlane plane = fit_plane(view.depth_mm, view.rays, next.x, next.y, params.smooth_px, params.jump_mm);
+      if (!plane.found) continue;
+      const Vector3d point = view.model_from_sensor * (seen * (plane.depth_mm / z));
+      const auto closest = naked.closest(point, params.outside_body_m);
+      if (closest.triangle < 0 || !is_leg(limbs.triangle_parts[closest.triangle])) continue;
+      if (naked.signed_distance(point, closest) < params.off_skin_m) continue;
+      result.at<float>(next) = z;
+      front.push_back(next);
+    }
+  }
+  return result;
+}
+
 void add_view(const FilledGarment& garment, const DepthView& view, const GarmentCloudParams& params,
               GarmentCloud& result) {
   const cv::Mat bad = unreliable(garment.depth_mm, view.depth_mm, params.jump_mm);
@@ -227,7 +264,7 @@ double seen_through_m(const DepthView& view, const Vector3d& point) {
 }
 
 GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled, const std::vector<DepthView>& views,
-                           const CaptureSession& session, const MeshQuery& naked, double crotch_y,
+                           const CaptureSession& session, const MeshQuery& naked, const BodyLimbs& limbs,
                            const GarmentCloudParams& params) {
   GarmentCloud result;
   const auto shots = filled.garments.find(garment);
@@ -235,9 +272,11 @@ GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled
   for (const DepthView& view : views) {
     const auto shot = shots->second.find(session.sensors[view.index]);
     if (shot == shots->second.end() || shot->second.depth_mm.size() != view.depth_mm.size()) continue;
-    add_view(shot->second, view, params, result);
+    FilledGarment seen = shot->second;
+    if (garment == "bottom") seen.depth_mm = extended_depth(seen.depth_mm, view, naked, limbs, params);
+    add_view(seen, view, params, result);
   }
-  filter(result, plausible(result, views, naked, crotch_y, params));
+  filter(result, plausible(result, views, naked, limbs.crotch_y, params));
   filter(result, sociable(result.cloud.points, params.neighbours, params.outlier_sigma));
   return result;
 }

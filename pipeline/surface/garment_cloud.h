@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/common/body_limbs.h"
 #include "pipeline/common/mesh_query.h"
 #include "pipeline/fill/fill.h"
 #include "pipeline/registration/registration.h"
@@ -17,6 +18,7 @@ struct GarmentCloudParams {
   double inside_body_m = 0.012;  // deepest point under the naked surface
   double outside_body_m = 0.15;  // farthest point off the naked surface, above the crotch
   double outside_legs_m = 0.40;  // the same below the crotch, where skirts stand off
+  double off_skin_m = 0.006;     // depth without colour counts as cloth this far off the naked legs
   int neighbours = 20;           // of the statistical test
   double outlier_sigma = 3.0;    // mean neighbour distances beyond this are dropped
 };
@@ -30,6 +32,7 @@ void fields(V& v, GarmentCloudParams& p) {
   v("inside_body_m", p.inside_body_m, 0.0, 0.1, "m", "deepest point kept under the naked surface");
   v("outside_body_m", p.outside_body_m, 0.02, 1.0, "m", "farthest point kept off the naked surface above the crotch");
   v("outside_legs_m", p.outside_legs_m, 0.02, 1.0, "m", "farthest point kept off the naked surface below the crotch");
+  v("off_skin_m", p.off_skin_m, 0.0, 0.05, "m", "depth that has no colour counts as cloth this far off the naked legs");
   v("neighbours", p.neighbours, 4, 100, "", "nearest neighbours of the statistical outlier test");
   v("outlier_sigma", p.outlier_sigma, 0.5, 10.0, "", "neighbour distances this many deviations out are dropped");
 }
@@ -59,9 +62,10 @@ double seen_through_m(const DepthView& view, const Vector3d& point);
 
 // Oriented, coloured, cleaned points of a garment ("top", "bottom"): depth smoothed by local plane fits; without edges
 // of the depth image, grazing surface, points that other views see through, points far from the naked body, and
-// statistical outliers. Views that are not registered are left out. May be empty.
+// statistical outliers. Views that are not registered are left out. May be empty. A bottom goes on where the colour
+// camera's picture ends (the Kinect's depth reaches lower): into depth that joins it and stands off the naked legs.
 GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled, const std::vector<DepthView>& views,
-                           const CaptureSession& session, const MeshQuery& naked, double crotch_y,
+                           const CaptureSession& session, const MeshQuery& naked, const BodyLimbs& limbs,
                            const GarmentCloudParams& params);
 
 }  // namespace dressform

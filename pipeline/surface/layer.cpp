@@ -92,15 +92,22 @@ Space make_space(const CoveredBody& body, const PointCloud& cloud, const LayerPa
   space.body_distance.resize(space.lattice.count());
   space.domain.resize(space.lattice.count());
   tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
-    for (int y = 0; y < space.lattice.size[1]; ++y)
+    for (int y = 0; y < space.lattice.size[1]; ++y) {
+      double bound = std::numeric_limits<double>::infinity();  // the neighbour's distance and a step
       for (int x = 0; x < space.lattice.size[0]; ++x) {
         const Vector3d point = space.lattice.point(x, y, z);
         double distance = interpolated(coarse, rough, point);
-        if (distance < limit + slack && distance > -params.reach_m - slack) distance = body.signed_distance(point);
+        if (distance < limit + slack && distance > -params.reach_m - slack) {
+          distance = body.signed_distance(point, bound);
+          bound = std::abs(distance) + 1.001 * params.step_m;
+        } else {
+          bound = std::numeric_limits<double>::infinity();
+        }
         const std::size_t at = space.lattice.index(x, y, z);
         space.body_distance[at] = static_cast<float>(distance);
         space.domain[at] = distance < limit && distance > -params.reach_m - 2 * params.step_m;
       }
+    }
   });
   return space;
 }
@@ -126,12 +133,39 @@ void carve(const Space& space, const std::vector<DepthView>& views, const std::v
   });
 }
 
-std::optional<ClosedGarment> make_garment(const std::string& name, const FilledViews& filled,
-                                          const std::vector<DepthView>& views, const CaptureSession& session,
-                                          const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {
-  GarmentCloud cloud = garment_cloud(name, filled, views, session, naked, limbs.crotch_y, params.cloud);
-  if (static_cast<int>(cloud.cloud.points.size()) < params.fewest_points) return {};
-  const GarmentExtent extent = garment_extent(name, cloud.cloud, naked, limbs);
+// Negative inside the garment taken as a solid: within the layer and its ends, and not in the slits that keep apart
+// what goes round each limb.
+std::vector<float> solid(const Space& space, const CoveredBody& body, const std::vector<float>& ease) {
+  const double slit_m = 0.75 * space.lattice.step_m;  // half its width: no lattice point is jumped over
+  std::vector<float> field(space.lattice.count());
+  tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
+    for (int y = 0; y < space.lattice.size[1]; ++y)
+      for (int x = 0; x < space.lattice.size[0]; ++x) {
+        const std::size_t at = space.lattice.index(x, y, z);
+        double value = space.body_distance[at] - (space.domain[at] ? ease[at] : 0.0f);
+        if (value < space.lattice.step_m) {
+          const Vector3d point = space.lattice.point(x, y, z);
+          value = std::max(value, body.beyond_ends(point));
+          if (space.domain[at] && value < space.lattice.step_m && space.body_distance[at] > 0)
+            value = std::max(value, slit_m - body.from_crevice(point, slit_m));
+        }
+        field[at] = static_cast<float>(value);
+      }
+  });
+  return field;
+}
+
+// Trousers and skirts whose upper end a top hides reach up to the body's waist.
+GarmentExtent up_to_the_waist(GarmentExtent bottom, const GarmentExtent& top, const BodyLimbs& limbs) {
+  constexpr double kTouching_m = 0.05, kFarthest_m = 0.35;
+  const bool hidden = top.bottom_y < bottom.top_y + kTouching_m && top.top_y > bottom.top_y;
+  if (hidden && limbs.waist_y < bottom.top_y + kFarthest_m) bottom.top_y = std::max(bottom.top_y, limbs.waist_y);
+  return bottom;
+}
+
+std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud cloud, const GarmentExtent& extent,
+                                          const std::vector<DepthView>& views, const MeshQuery& naked,
+                                          const BodyLimbs& limbs, const LayerParams& params) {
   const CoveredBody body(naked, limbs, name, extent, params.margin_m);
   const Space space = make_space(body, cloud.cloud, params);
 
@@ -141,17 +175,8 @@ std::optional<ClosedGarment> make_garment(const std::string& name, const FilledV
   carve(space, views, ease, params.carve_m, data);
   ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
 
-  std::vector<float> field(space.lattice.count());
-  tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
-    for (int y = 0; y < space.lattice.size[1]; ++y)
-      for (int x = 0; x < space.lattice.size[0]; ++x) {
-        const std::size_t at = space.lattice.index(x, y, z);
-        const double layer = space.body_distance[at] - (space.domain[at] ? ease[at] : 0.0f);
-        field[at] = static_cast<float>(std::max(layer, body.beyond_ends(space.lattice.point(x, y, z))));
-      }
-  });
   BallReport report;
-  field = ball_field(space.lattice, std::move(field), report);
+  std::vector<float> field = ball_field(space.lattice, solid(space, body, ease), report);
   if (field.empty()) return {};
   ClosedGarment garment;
   garment.mesh = tidied(lattice_surface(space.lattice, field), params.edge_m);
@@ -167,10 +192,20 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
   const BodyLimbs limbs = find_limbs(naked.body);
   const MeshQuery query(naked.body);
   const std::vector<DepthView> views = depth_views(session, calibration, registration);
-  ClosedGarments closed;
+  std::map<std::string, GarmentCloud> clouds;
+  std::map<std::string, GarmentExtent> extents;
   for (const auto& each : filled.garments) {
-    auto garment = make_garment(each.first, filled, views, session, query, limbs, params);
-    if (garment) closed.garments.emplace(each.first, std::move(*garment));
+    GarmentCloud cloud = garment_cloud(each.first, filled, views, session, query, limbs, params.cloud);
+    if (static_cast<int>(cloud.cloud.points.size()) < params.fewest_points) continue;
+    extents.emplace(each.first, garment_extent(each.first, cloud.cloud, query, limbs));
+    clouds.emplace(each.first, std::move(cloud));
+  }
+  if (extents.count("top") && extents.count("bottom"))
+    extents["bottom"] = up_to_the_waist(extents["bottom"], extents["top"], limbs);
+  ClosedGarments closed;
+  for (auto& [name, cloud] : clouds) {
+    auto garment = make_garment(name, std::move(cloud), extents[name], views, query, limbs, params);
+    if (garment) closed.garments.emplace(name, std::move(*garment));
   }
   return closed;
 }

@@ -1,0 +1,170 @@
+#include "pipeline/open/open.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/common/dressed_figure_for_tests.h"
+#include "pipeline/open/cut.h"
+#include "pipeline/open/rim_fit.h"
+#include "pipeline/surface/surface.h"
+
+namespace dressform {
+namespace {
+
+void expect_open(const Mesh& mesh, int loops) {
+  const Topology t = topology(mesh);
+  EXPECT_EQ(t.loops, loops);
+  EXPECT_EQ(t.components, 1);
+  EXPECT_EQ(t.non_manifold_edges, 0);
+  EXPECT_EQ(t.euler(), 2 - loops);
+  EXPECT_EQ(t.boundary_edges, 2 * t.vertices - t.triangles - 2 * t.euler());
+}
+
+Mesh ball(double radius) {
+  return figure::surface_of(Vector3d::Constant(-radius), Vector3d::Constant(radius), 0.01,
+                            [radius](const Vector3d& p) { return p.norm() - radius; });
+}
+
+Cap cap_above(const Mesh& mesh, const Vector3d& axis, double height) {
+  Cap cap;
+  for (const Vector3d& v : mesh.vertices) cap.beyond.push_back(v.dot(axis) - height);
+  cap.pole = static_cast<int>(std::max_element(cap.beyond.begin(), cap.beyond.end()) - cap.beyond.begin());
+  return cap;
+}
+
+TEST(Cut, BallWithThreeCapsOff) {
+  const Mesh closed = ball(0.1);
+  const std::vector<Cap> caps{cap_above(closed, Vector3d::UnitY(), 0.05), cap_above(closed, -Vector3d::UnitY(), 0.06),
+                              cap_above(closed, Vector3d::UnitX(), 0.085)};
+  const CutResult cut = cut_caps(closed, caps);
+  expect_open(cut.mesh, 3);
+  for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
+    const Vector3d& v = cut.mesh.vertices[i];
+    if (cut.cap_of_vertex[i] == 0) {
+      EXPECT_NEAR(v.y(), 0.05, 2e-4);
+    }
+    if (cut.cap_of_vertex[i] == 1) {
+      EXPECT_NEAR(v.y(), -0.06, 2e-4);
+    }
+    if (cut.cap_of_vertex[i] == 2) {
+      EXPECT_NEAR(v.x(), 0.085, 2e-4);
+    }
+  }
+  const Mesh tidy = without_slivers(cut.mesh, 0.003);
+  expect_open(tidy, 3);
+  EXPECT_LT(tidy.vertices.size(), cut.mesh.vertices.size());
+  for (const auto& loop : boundary_loops(tidy))
+    for (const int v : loop) {
+      const Vector3d& p = tidy.vertices[v];
+      EXPECT_LT(std::min({std::abs(p.y() - 0.05), std::abs(p.y() + 0.06), std::abs(p.x() - 0.085)}), 3e-4);
+    }
+}
+
+TEST(Cut, IslandsInACapGoWithIt) {
+  const Mesh closed = ball(0.1);
+  Cap cap = cap_above(closed, Vector3d::UnitY(), 0.0);
+  for (std::size_t i = 0; i < closed.vertices.size(); ++i)
+    if ((closed.vertices[i] - Vector3d(0.06, 0.08, 0)).norm() < 0.02) cap.beyond[i] = -0.01;
+  expect_open(cut_caps(closed, {cap}).mesh, 1);
+}
+
+TEST(Cut, ACapThatIsNotThereGivesNothing) {
+  const Mesh closed = ball(0.1);
+  EXPECT_TRUE(cut_caps(closed, {cap_above(closed, Vector3d::UnitY(), 0.2)}).mesh.triangles.empty());
+  EXPECT_TRUE(cut_caps(closed, {cap_above(closed, Vector3d::UnitY(), -0.2)}).mesh.triangles.empty());
+}
+
+TEST(RimFit, SlantedRimWithOutliersAndAGap) {
+  std::vector<RimSample> samples;
+  const auto truth = [](double angle) { return 0.2 + 0.02 * std::cos(angle) + 0.01 * std::sin(2 * angle); };
+  for (int i = 0; i < 600; ++i) {
+    const double angle = -M_PI + 2 * M_PI * i / 600.0;
+    if (angle > 1.0 && angle < 1.8) continue;  // hidden
+    const auto noise = normal4(5, 1, i);
+    samples.push_back({angle, truth(angle) + 0.002 * noise[0], 1});
+    if (i % 5 == 0) samples.push_back({angle, 0.05 + 0.01 * noise[1], 1});  // edges of something else
+    if (angle < -2.9) samples.push_back({angle, 0.06, 1});
+  }
+  const RimCurve curve = fit_rim(samples, {});
+  for (double angle = -3; angle < 3.1; angle += 0.05)
+    EXPECT_NEAR(curve.at(angle), truth(angle), angle > 0.9 && angle < 1.9 ? 0.006 : 0.003) << angle;
+  EXPECT_NEAR(curve.coverage, 1 - 0.8 / (2 * M_PI), 0.06);
+  EXPECT_LT(curve.residual_rms_m, 0.004);
+}
+
+TEST(RimFit, NothingSeenIsNoCurve) {
+  EXPECT_TRUE(fit_rim({}, {}).knots.empty());
+  EXPECT_EQ(fit_rim({}, {}).coverage, 0);
+}
+
+OpenGarments run(const std::string& variant, const figure::Capture& c, const ClosedGarments& closed) {
+  return Open::at(variant).run(c.session, c.calibration, c.naked, c.registration, c.segmentation, closed, {}, 1);
+}
+ClosedGarments close(const figure::Capture& c) {
+  return Surface::at(SurfaceTag::default_variant)
+      .run(c.session, c.calibration, c.naked, c.registration, c.filled, {}, 1);
+}
+
+const Rim* rim_named(const OpenGarment& garment, const std::string& name) {
+  for (const Rim& rim : garment.rims)
+    if (rim.name == name) return &rim;
+  return nullptr;
+}
+
+double mean_y(const Rim& rim) {
+  double sum = 0;
+  for (const Vector3d& p : rim.points) sum += p.y() / rim.points.size();
+  return sum;
+}
+
+class EveryOpening : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryOpening, ShirtAndTrousersHaveTheirRims) {
+  const figure::Capture capture = figure::capture({});
+  const OpenGarments open = run(GetParam(), capture, close(capture));
+  ASSERT_EQ(open.garments.size(), 2u);
+  const OpenGarment &top = open.garments.at("top"), &bottom = open.garments.at("bottom");
+  expect_open(top.mesh, 4);
+  expect_open(bottom.mesh, 3);
+  for (const char* name : {"neck", "left_cuff", "right_cuff", "hem"}) ASSERT_TRUE(rim_named(top, name)) << name;
+  for (const char* name : {"waist", "left_ankle", "right_ankle"}) ASSERT_TRUE(rim_named(bottom, name)) << name;
+  EXPECT_NEAR(mean_y(*rim_named(top, "hem")), capture.clothes.hem_y, 0.010);
+  EXPECT_NEAR(mean_y(*rim_named(top, "neck")), capture.clothes.neck_y, 0.015);
+  for (const double side : {1.0, -1.0}) {
+    const Rim* cuff = rim_named(top, side > 0 ? "left_cuff" : "right_cuff");
+    EXPECT_GT(cuff->points[0].x() * side, 0.1);  // faces +z: its left is at +x
+    for (const Vector3d& p : cuff->points) EXPECT_NEAR(figure::along_arm(p, side), capture.clothes.sleeve_m, 0.025);
+    const Rim* ankle = rim_named(bottom, side > 0 ? "left_ankle" : "right_ankle");
+    EXPECT_NEAR(mean_y(*ankle), capture.clothes.ankle_y, 0.012);
+    EXPECT_GT(ankle->points[0].x() * side, 0);
+  }
+  EXPECT_FALSE(rim_named(bottom, "waist")->observed);
+  EXPECT_TRUE(rim_named(top, "hem")->observed);
+}
+
+TEST_P(EveryOpening, SkirtHasTwoRims) {
+  figure::Clothes clothes;
+  clothes.skirt = true;
+  clothes.ankle_y = 0.5;
+  const figure::Capture capture = figure::capture(clothes);
+  const OpenGarments open = run(GetParam(), capture, close(capture));
+  ASSERT_TRUE(open.garments.count("bottom"));
+  expect_open(open.garments.at("bottom").mesh, 2);
+  EXPECT_NEAR(mean_y(*rim_named(open.garments.at("bottom"), "hem")), 0.5, 0.012);
+}
+
+TEST_P(EveryOpening, NothingToOpenIsNothing) {
+  const figure::Capture capture = figure::capture({}, 0, 0.25);
+  EXPECT_TRUE(run(GetParam(), capture, {}).garments.empty());
+  ClosedGarments empty;
+  empty.garments["top"] = {};
+  EXPECT_TRUE(run(GetParam(), capture, empty).garments.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, EveryOpening, ::testing::ValuesIn(Open::names()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace dressform
