@@ -114,7 +114,7 @@ class Studio {
         meter_(progress, 2 * static_cast<int>(scene.rig.size()) + 2 * scene.scan.frames),
         lighting_(make_lighting(scene.lights, scene.room)),
         exposure_(nominal_exposure(lighting_)) {
-    model_.check(scene.sensor_model.values);
+    model_.complete(scene.sensor_model.values);
     for (const auto& sensor : scene.rig) {
       const auto& color = sensor.calibration.color;
       optics_.push_back({RayTable(sensor.calibration.ir), color ? std::make_unique<RayTable>(*color) : nullptr});
