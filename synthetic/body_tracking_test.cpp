@@ -13,7 +13,7 @@ namespace {
 Camera kinect() { return Camera{256, 212, 183, 183, 127.5, 105.5, {0.09, -0.27, 0, 0, 0.1}}; }
 
 RayScene ball_before_wall() {
-  std::vector<Surface> surfaces(2);
+  std::vector<RaySurface> surfaces(2);
   surfaces[0].mesh = sphere_mesh({0, 0, 2}, 0.4, 60);
   surfaces[0].label = Label::skin;
   surfaces[1].mesh = grid_mesh({-6, 6, 4}, {12, 0, 0}, {0, -12, 0}, 1);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double grid_step_m = 0.08;  // fine enough for the contact shadow of the indirect light
 
-Surface plain(const char* name, Mesh mesh, const Vector3f& srgb, float nir_albedo) {
-  Surface surface;
+RaySurface plain(const char* name, Mesh mesh, const Vector3f& srgb, float nir_albedo) {
+  RaySurface surface;
   surface.name = name;
   surface.mesh = std::move(mesh);
   surface.smooth = false;
@@ -23,9 +23,9 @@ Surface plain(const char* name, Mesh mesh, const Vector3f& srgb, float nir_albed
   return surface;
 }
 
-Surface pictured(const char* name, const Vector3d& corner, const Vector3d& u, const Vector3d& v, cv::Mat texture,
+RaySurface pictured(const char* name, const Vector3d& corner, const Vector3d& u, const Vector3d& v, cv::Mat texture,
                  float nir_albedo) {
-  Surface surface = plain(name, grid_mesh(corner, u, v, grid_step_m), Vector3f::Ones(), nir_albedo);
+  RaySurface surface = plain(name, grid_mesh(corner, u, v, grid_step_m), Vector3f::Ones(), nir_albedo);
   surface.corner_uv = grid_uv(surface.mesh, corner, u, v);
   surface.texture = std::move(texture);
   return surface;
@@ -37,7 +37,7 @@ void append(Mesh& mesh, const Mesh& more) {
   for (const auto& triangle : more.triangles) mesh.triangles.push_back(triangle.array() + offset);
 }
 
-Surface boxes(const char* name, const std::vector<std::array<Vector3d, 2>>& corners, const Vector3f& srgb,
+RaySurface boxes(const char* name, const std::vector<std::array<Vector3d, 2>>& corners, const Vector3f& srgb,
               float nir_albedo) {
   Mesh mesh;
   for (const auto& box : corners) append(mesh, box_mesh(box[0], box[1]));
@@ -48,7 +48,7 @@ struct Half {
   double x, z, height;
 };
 
-void add_shell(const Half& half, std::vector<Surface>& out) {
+void add_shell(const Half& half, std::vector<RaySurface>& out) {
   const double x = half.x, z = half.z, h = half.height;
   const Vector3d up(0, h, 0);
   // Texture rows run downwards: v from the top edge.
@@ -69,7 +69,7 @@ void add_shell(const Half& half, std::vector<Surface>& out) {
                       {0.88f, 0.87f, 0.84f}, 0.6f));
 }
 
-void add_door(const Half& half, std::vector<Surface>& out) {
+void add_door(const Half& half, std::vector<RaySurface>& out) {
   const double z = -half.z, height = std::min(2.05, half.height - 0.15), left = 0.55 * half.x, right = left + 0.85;
   if (right + 0.1 > half.x) return;
   out.push_back(
@@ -84,7 +84,7 @@ void add_door(const Half& half, std::vector<Surface>& out) {
 }
 
 // A desk in one corner, shelves in another, a chair and a box: all within half a metre of the walls.
-void add_furniture(const Half& half, std::vector<Surface>& out) {
+void add_furniture(const Half& half, std::vector<RaySurface>& out) {
   const double x = half.x, z = half.z;
   const double depth = std::min(0.6, 0.25 * std::min(x, z));
   const Vector3d desk(-x, 0, -z);
@@ -140,7 +140,7 @@ void add_furniture(const Half& half, std::vector<Surface>& out) {
                       {0.66f, 0.52f, 0.36f}, 0.6f));
 }
 
-void add_wall_pictures(const Half& half, std::vector<Surface>& out) {
+void add_wall_pictures(const Half& half, std::vector<RaySurface>& out) {
   const auto hang = [&](const char* name, const Vector3d& corner, const Vector3d& u, double height_m, int number) {
     out.push_back(pictured(name, corner, u, {0, height_m, 0}, paint_poster(u.norm(), height_m, number), 0.5f));
   };
@@ -168,9 +168,9 @@ Calf find_calf(const Body& body) {
 
 }  // namespace
 
-std::vector<Surface> make_room(const RoomSpec& room) {
+std::vector<RaySurface> make_room(const RoomSpec& room) {
   const Half half{0.5 * room.width_m, 0.5 * room.depth_m, room.height_m};
-  std::vector<Surface> result;
+  std::vector<RaySurface> result;
   add_shell(half, result);
   if (!room.furniture) return result;
   add_door(half, result);
@@ -179,10 +179,10 @@ std::vector<Surface> make_room(const RoomSpec& room) {
   return result;
 }
 
-std::vector<Surface> make_bulbs(const std::vector<LightSpec>& lights) {
-  std::vector<Surface> result;
+std::vector<RaySurface> make_bulbs(const std::vector<LightSpec>& lights) {
+  std::vector<RaySurface> result;
   for (const auto& light : lights) {
-    Surface bulb = plain("bulb", sphere_mesh(light.position_m, 0.5 * light.radius_m, 8), Vector3f::Ones(), 0.3f);
+    RaySurface bulb = plain("bulb", sphere_mesh(light.position_m, 0.5 * light.radius_m, 8), Vector3f::Ones(), 0.3f);
     bulb.smooth = true;
     const double disc_m2 = M_PI * light.radius_m * light.radius_m;
     bulb.material.emission_rgb = (light.intensity_rgb / disc_m2).cast<float>();
@@ -191,16 +191,16 @@ std::vector<Surface> make_bulbs(const std::vector<LightSpec>& lights) {
   return result;
 }
 
-std::vector<Surface> make_stand(const Body& body) {
+std::vector<RaySurface> make_stand(const Body& body) {
   const Calf calf = find_calf(body);
   Mesh mesh = cylinder_mesh({0, 0.0, -0.03}, {0, 0.006, -0.03}, 0.22, 64);
   append(mesh, cylinder_mesh({calf.x, 0.006, calf.back - 0.004}, {calf.x, calf.height, calf.back - 0.004}, 0.008, 24));
-  Surface stand = plain("stand", std::move(mesh), Vector3f::Constant(0.86f), 0.5f);
+  RaySurface stand = plain("stand", std::move(mesh), Vector3f::Constant(0.86f), 0.5f);
   stand.material.chrome = true;
   return {stand};
 }
 
-std::vector<Surface> make_rig_hardware(const std::vector<SensorSpec>& rig) {
+std::vector<RaySurface> make_rig_hardware(const std::vector<SensorSpec>& rig) {
   Mesh housings, tripods;
   for (const auto& sensor : rig) {
     const Isometry3d& pose = sensor.world_from_sensor;

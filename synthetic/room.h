@@ -9,15 +9,15 @@ namespace dressform {
 
 // Floor, walls, ceiling, skirting, door and a window; with `furniture` also pieces along the walls, out of the way of
 // the rig. World frame, floor at y = 0.
-std::vector<Surface> make_room(const RoomSpec& room);
+std::vector<RaySurface> make_room(const RoomSpec& room);
 
 // The bulbs' own glass: seen by cameras, casting no shadow (it lies within what a shadow ray leaves out).
-std::vector<Surface> make_bulbs(const std::vector<LightSpec>& lights);
+std::vector<RaySurface> make_bulbs(const std::vector<LightSpec>& lights);
 
 // The chrome stand: a base plate under the feet and a rod that holds the calf.
-std::vector<Surface> make_stand(const Body& body);
+std::vector<RaySurface> make_stand(const Body& body);
 
 // The other sensors as a camera sees them: housings on tripods.
-std::vector<Surface> make_rig_hardware(const std::vector<SensorSpec>& rig);
+std::vector<RaySurface> make_rig_hardware(const std::vector<SensorSpec>& rig);
 
 }  // namespace dressform

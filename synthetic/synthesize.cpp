@@ -37,8 +37,8 @@ class Meter {
   int total_, done_ = 0;
 };
 
-Surface skin_surface(const Body& body, const Vector3f& srgb, float nir_albedo, float gloss) {
-  Surface surface;
+RaySurface skin_surface(const Body& body, const Vector3f& srgb, float nir_albedo, float gloss) {
+  RaySurface surface;
   surface.name = "body";
   surface.mesh = body.mesh;
   for (int c = 0; c < 3; ++c) surface.material.albedo_rgb[c] = linear_from_srgb(srgb[c]);
@@ -48,12 +48,12 @@ Surface skin_surface(const Body& body, const Vector3f& srgb, float nir_albedo, f
   return surface;
 }
 
-Surface mannequin_surface(const Body& body) { return skin_surface(body, {0.86f, 0.78f, 0.70f}, 0.55f, 0.12f); }
-Surface user_surface(const Body& body) { return skin_surface(body, {0.30f, 0.33f, 0.38f}, 0.50f, 0.0f); }
+RaySurface mannequin_surface(const Body& body) { return skin_surface(body, {0.86f, 0.78f, 0.70f}, 0.55f, 0.12f); }
+RaySurface user_surface(const Body& body) { return skin_surface(body, {0.30f, 0.33f, 0.38f}, 0.50f, 0.0f); }
 
 // Dyes look alike to an infrared camera; each garment has its own brightness all the same.
-Surface garment_surface(const GarmentSpec& spec, const Garment& garment) {
-  Surface surface;
+RaySurface garment_surface(const GarmentSpec& spec, const Garment& garment) {
+  RaySurface surface;
   surface.name = spec.name;
   surface.mesh = garment.textured.mesh;
   surface.corner_uv = garment.textured.corner_uv;
@@ -65,7 +65,7 @@ Surface garment_surface(const GarmentSpec& spec, const Garment& garment) {
   return surface;
 }
 
-std::vector<Surface> joined(std::vector<Surface> first, const std::vector<Surface>& second) {
+std::vector<RaySurface> joined(std::vector<RaySurface> first, const std::vector<RaySurface>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
@@ -221,12 +221,12 @@ void add_garment_truth(const Scene& scene, const GarmentSpec& spec, const Garmen
 }
 
 // Naked and dressed shots of the rig, with all that is true of the dressed one.
-void take_shots(const Scene& scene, Studio& studio, const Body& body, const std::vector<Surface>& around, Seed seed,
+void take_shots(const Scene& scene, Studio& studio, const Body& body, const std::vector<RaySurface>& around, Seed seed,
                 SyntheticCapture& out) {
   const auto set = joined(joined(around, make_rig_hardware(scene.rig)), {mannequin_surface(body)});
   out.session.naked = studio.shoot(RayScene(set), body, "naked");
   std::vector<Garment> worn;
-  std::vector<Surface> cloth;
+  std::vector<RaySurface> cloth;
   const auto specs = inner_first(scene);
   for (const GarmentSpec* spec : specs) {
     worn.push_back(make_garment(*spec, body, worn, seed));

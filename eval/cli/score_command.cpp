@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"

@@ -5,10 +5,9 @@
 #include "pipeline/extract/extract.h"
 #include "pipeline/registration/registration.h"
 #include "pipeline/stage.h"
+#include "scenes/label.h"
 
 namespace dressform {
-
-enum class Label : unsigned char { none = 0, skin = 1, top = 2, bottom = 3 };
 
 struct Segmentation {
   std::map<std::string, cv::Mat> labels;     // by sensor; uint8 Label at colour size, raw (distorted) pixels

@@ -14,8 +14,8 @@ namespace {
 
 Camera color_camera() { return Camera{480, 270, 268, 267, 235, 133, {0.0594, -0.0628, -0.00158, -0.00115, 0.0078}}; }
 
-Surface surface(const char* name, Mesh mesh, const Vector3f& albedo, Label label = Label::none, bool smooth = true) {
-  Surface result;
+RaySurface surface(const char* name, Mesh mesh, const Vector3f& albedo, Label label = Label::none, bool smooth = true) {
+  RaySurface result;
   result.name = name;
   result.mesh = std::move(mesh);
   result.smooth = smooth;
@@ -32,7 +32,7 @@ Lighting lamps() {
 }
 
 // A dark wall 3 m before the camera (at the origin, looking along +z).
-Surface wall(const Vector3f& albedo) {
+RaySurface wall(const Vector3f& albedo) {
   return surface("wall", grid_mesh({-6, 6, 3}, {12, 0, 0}, {0, -12, 0}, 0.2), albedo, Label::none, false);
 }
 
@@ -56,7 +56,7 @@ TEST(RayTable, InvertsTheDistortionBetweenPixelsToo) {
 TEST(ColorCamera, KnownPointsLandWhereTheCameraProjectsThem) {
   const Camera camera = color_camera();
   for (const Vector3d& point : {Vector3d(-1.4, -0.7, 1.9), Vector3d(1.3, 0.75, 1.9), Vector3d(0.1, 0, 1.5)}) {
-    std::vector<Surface> surfaces;
+    std::vector<RaySurface> surfaces;
     surfaces.push_back(surface("ball", sphere_mesh(point, 0.03, 20), Vector3f::Zero(), Label::top));
     surfaces.back().material.emission_rgb = Vector3f::Ones();
     const cv::Mat image = render(RayScene(std::move(surfaces)), camera);
@@ -73,11 +73,11 @@ TEST(ColorCamera, KnownPointsLandWhereTheCameraProjectsThem) {
 TEST(ColorCamera, PrintLandsOnItsSpotOfCloth) {
   const Camera camera = color_camera();
   const Vector3d corner(-0.5, -0.4, 2), u(1, 0, 0.2), v(0, 0.8, 0);
-  Surface cloth = surface("cloth", grid_mesh(corner, u, v, 0.1), Vector3f::Ones(), Label::top);
+  RaySurface cloth = surface("cloth", grid_mesh(corner, u, v, 0.1), Vector3f::Ones(), Label::top);
   cloth.corner_uv = grid_uv(cloth.mesh, corner, u, v);
   cloth.texture = cv::Mat(400, 500, CV_8UC3, cv::Scalar::all(0));
   cv::circle(cloth.texture, {375, 100}, 12, cv::Scalar::all(255), cv::FILLED);
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(std::move(cloth));
   cv::Mat grey;
   cv::cvtColor(render(RayScene(std::move(surfaces)), camera), grey, cv::COLOR_BGR2GRAY);
@@ -92,12 +92,12 @@ TEST(ColorCamera, PrintLandsOnItsSpotOfCloth) {
 
 TEST(ColorCamera, FineChequersAverageInsteadOfAliasing) {
   const Vector3d corner(-3, -3, 3), u(6, 0, 0), v(0, 6, 0);
-  Surface cloth = surface("cloth", grid_mesh(corner, u, v, 0.5), Vector3f::Ones());
+  RaySurface cloth = surface("cloth", grid_mesh(corner, u, v, 0.5), Vector3f::Ones());
   cloth.corner_uv = grid_uv(cloth.mesh, corner, u, v);
   cloth.texture = cv::Mat(2000, 2000, CV_8UC3, cv::Scalar::all(0));
   for (int y = 0; y < 2000; ++y)
     for (int x = y % 2; x < 2000; x += 2) cloth.texture.at<cv::Vec3b>(y, x) = {255, 255, 255};
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(std::move(cloth));
   FilmSpec quiet;
   quiet.electrons_full_scale = 1e9f;
@@ -110,7 +110,7 @@ TEST(ColorCamera, FineChequersAverageInsteadOfAliasing) {
 }
 
 TEST(ColorCamera, ShadowsAreDarkerButNotBlack) {
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(wall(Vector3f::Constant(0.6f)));
   surfaces.push_back(surface("ball", sphere_mesh({0.3, -0.4, 1.8}, 0.25, 40), Vector3f::Constant(0.5f)));
   const RayScene scene(std::move(surfaces));
@@ -133,7 +133,7 @@ TEST(ColorCamera, GreyLandsMidScaleAndWhiteDoesNotClip) {
   left.position_m = {-1.9, 2.35, 2.0}, right.position_m = {1.9, 2.35, -2.0};
   const Lighting lighting = make_lighting({left, right}, RoomSpec{});
   for (const float albedo : {0.18f, 0.9f}) {
-    std::vector<Surface> surfaces;
+    std::vector<RaySurface> surfaces;
     surfaces.push_back(
         surface("card", grid_mesh({0.4, 0.85, 0}, {-0.8, 0, 0}, {0, 0.8, 0}, 0.1), Vector3f::Constant(albedo)));
     const RayScene scene(std::move(surfaces));
@@ -156,7 +156,7 @@ TEST(ColorCamera, GreyLandsMidScaleAndWhiteDoesNotClip) {
 }
 
 TEST(ColorCamera, SameBytesForAnyThreadCountAndSeedsDiffer) {
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(wall(Vector3f::Constant(0.6f)));
   surfaces.push_back(surface("ball", sphere_mesh({0.2, 0, 1.8}, 0.3, 40), Vector3f(0.2f, 0.3f, 0.6f)));
   surfaces.push_back(surface("mirror", sphere_mesh({-0.6, 0, 1.8}, 0.2, 40), Vector3f::Constant(0.8f)));
@@ -173,7 +173,7 @@ TEST(ColorCamera, SameBytesForAnyThreadCountAndSeedsDiffer) {
 
 // Seen through colour and infrared at the same place, labels and depth tell of the same things.
 TEST(Labels, AgreeWithDepth) {
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(wall(Vector3f::Constant(0.6f)));
   surfaces.push_back(surface("top", sphere_mesh({-0.5, 0, 1.5}, 0.3, 60), Vector3f::Ones(), Label::top));
   surfaces.push_back(surface("bottom", sphere_mesh({0.5, 0, 2.0}, 0.3, 60), Vector3f::Ones(), Label::bottom));
@@ -220,7 +220,7 @@ std::vector<SensorSpec> two_sensors() {
 TEST(Visibility, OuterSideFacingAndUnoccluded) {
   // A sheet that faces k1; a plate covers the half with x > 0 from k1.
   const Mesh sheet = grid_mesh({-0.4, -0.4, 0}, {0.8, 0, 0}, {0, 0.8, 0}, 0.02);
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(surface("sheet", sheet, Vector3f::Ones(), Label::top));
   surfaces.push_back(surface("plate", box_mesh({0, -1, 0.5}, {1, 1, 0.51}), Vector3f::Ones()));
   const RayScene scene(std::move(surfaces));
@@ -236,7 +236,7 @@ TEST(Visibility, OuterSideFacingAndUnoccluded) {
 }
 
 TEST(Visibility, PartOfARimThatSomeSensorSees) {
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(surface("front plate", box_mesh({0, -1, 0.5}, {1, 1, 0.51}), Vector3f::Ones()));
   surfaces.push_back(surface("back plate", box_mesh({-2, -1, -0.51}, {2, 1, -0.5}), Vector3f::Ones()));
   const RayScene scene(std::move(surfaces));

@@ -45,7 +45,7 @@ std::vector<Vector3f> float_normals(const Mesh& mesh) {
 }
 
 // Texels along one metre of cloth: the square root of the ratio of areas.
-std::vector<float> texel_densities(const Surface& surface) {
+std::vector<float> texel_densities(const RaySurface& surface) {
   std::vector<float> result(surface.mesh.triangles.size(), 0.0f);
   const float texels = static_cast<float>(surface.texture.cols) * surface.texture.rows;
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -81,14 +81,14 @@ struct RayScene::Embree {
   }
 };
 
-RayScene::RayScene(std::vector<Surface> surfaces)
+RayScene::RayScene(std::vector<RaySurface> surfaces)
     : surfaces_(std::move(surfaces)), details_(surfaces_.size()), embree_(std::make_unique<Embree>()) {
   embree_->device = rtcNewDevice(nullptr);
   if (!embree_->device) throw std::runtime_error("Embree: no device");
   embree_->scene = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const Surface& surface = surfaces_[i];
+    const RaySurface& surface = surfaces_[i];
     attach(surface, static_cast<unsigned>(i));
     details_[i].normals = float_normals(surface.mesh);
     if (surface.texture.empty() || surface.corner_uv.size() != surface.mesh.triangles.size()) continue;
@@ -103,7 +103,7 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-void RayScene::attach(const Surface& surface, unsigned id) {
+void RayScene::attach(const RaySurface& surface, unsigned id) {
   const Mesh& mesh = surface.mesh;
   const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -156,7 +156,7 @@ void RayScene::occluded(const RayPacket& rays, bool (&occluded)[packet_size], Co
 Vector3f RayScene::normal(const RayPacket& rays, const HitPacket& hits, int lane) const {
   const Vector3f direction = rays.direction(lane);
   Vector3f geometric = hits.geometric_normal(lane);
-  const Surface& surface = surfaces_[hits.surface[lane]];
+  const RaySurface& surface = surfaces_[hits.surface[lane]];
   if (!surface.smooth) {
     geometric.normalize();
     return geometric.dot(direction) > 0 ? Vector3f(-geometric) : geometric;

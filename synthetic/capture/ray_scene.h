@@ -45,7 +45,7 @@ enum class Coherence { coherent, incoherent };
 // Surfaces in an Embree scene. Rays are always traced in packets of sixteen (single rays give other last bits).
 class RayScene {
  public:
-  explicit RayScene(std::vector<Surface> surfaces);
+  explicit RayScene(std::vector<RaySurface> surfaces);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
@@ -62,7 +62,7 @@ class RayScene {
   // Albedo at 860 nm; a print shows in it faintly.
   float nir_albedo(const HitPacket& hits, int lane) const;
 
-  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  const std::vector<RaySurface>& surfaces() const { return surfaces_; }
   const std::vector<Vector3f>& vertex_normals_of(int surface) const { return details_[surface].normals; }
 
  private:
@@ -72,9 +72,9 @@ class RayScene {
     std::vector<float> texels_per_m;  // per triangle
   };
   struct Embree;
-  void attach(const Surface& surface, unsigned id);
+  void attach(const RaySurface& surface, unsigned id);
   Vector3f albedo(int surface, int triangle, float u, float v, float footprint_m) const;
-  std::vector<Surface> surfaces_;
+  std::vector<RaySurface> surfaces_;
   std::vector<Details> details_;
   std::unique_ptr<Embree> embree_;
 };

@@ -5,12 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "scenes/label.h"
 #include "scenes/mesh.h"
 
 namespace dressform {
-
-// What a label image says of a surface.
-enum class Label : std::uint8_t { none = 0, skin = 1, top = 2, bottom = 3 };
 
 struct Material {
   Vector3f albedo_rgb = Vector3f::Constant(0.5f);  // linear; multiplies the texture where there is one
@@ -23,7 +21,7 @@ struct Material {
 };
 
 // One thing that rays can hit, in the world frame. Seen from both sides.
-struct Surface {
+struct RaySurface {
   std::string name;
   Mesh mesh;
   Material material;

@@ -16,6 +16,7 @@ struct SensorFrame {
 // The view gives first hits per pixel and a ray service for subsamples.
 struct SensorModelTag {
   static constexpr const char* name = "sensor";
+  static constexpr const char* default_variant = "fankhauser";
 };
 using SensorModel = Registry<SensorModelTag, SensorFrame(const IrView&)>;
 

@@ -12,8 +12,8 @@ namespace {
 
 Camera kinect() { return Camera{512, 424, 366, 366, 256, 208, {0.09, -0.27, 0, 0, 0.1}}; }
 
-std::vector<Surface> stage() {
-  std::vector<Surface> surfaces(2);
+std::vector<RaySurface> stage() {
+  std::vector<RaySurface> surfaces(2);
   surfaces[0].mesh = sphere_mesh({0, 0, 2}, 0.6, 320);  // 400k triangles
   surfaces[1].mesh = grid_mesh({-6, 6, 4}, {12, 0, 0}, {0, -12, 0}, 0.2);
   return surfaces;

@@ -13,8 +13,8 @@ namespace {
 
 Camera kinect() { return Camera{256, 212, 183, 183, 127.5, 105.5, {0.09, -0.27, 0, 0, 0.1}}; }
 
-Surface surface(Mesh mesh, float nir_albedo, bool smooth = false) {
-  Surface result;
+RaySurface surface(Mesh mesh, float nir_albedo, bool smooth = false) {
+  RaySurface result;
   result.name = "test";
   result.mesh = std::move(mesh);
   result.smooth = smooth;
@@ -24,7 +24,7 @@ Surface surface(Mesh mesh, float nir_albedo, bool smooth = false) {
 
 // A wide plane through (0, 0, distance) turned about the vertical by `tilt_deg`, in the frame of a sensor at the
 // origin.
-Surface plane(double distance_m, double tilt_deg, float nir_albedo = 0.6f) {
+RaySurface plane(double distance_m, double tilt_deg, float nir_albedo = 0.6f) {
   const double tilt = tilt_deg * M_PI / 180;
   const Vector3d u(std::cos(tilt), 0, std::sin(tilt)), v(0, 1, 0);
   return surface(grid_mesh(Vector3d(0, 0, distance_m) - 20 * u - 20 * v, 40 * u, 40 * v, 1), nir_albedo);
@@ -38,8 +38,8 @@ SensorFrame measure(const RayScene& scene, const std::string& model, const Field
   return SensorModel::at(model).run(view, values, seed);
 }
 
-RayScene scene_of(Surface only) {
-  std::vector<Surface> surfaces;
+RayScene scene_of(RaySurface only) {
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(std::move(only));
   return RayScene(std::move(surfaces));
 }
@@ -159,7 +159,7 @@ struct Contour {
   double flying = 0, lost = 0;
 };
 Contour contour_of_plate(double gap_m) {
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(plane(2 + gap_m, 0));
   surfaces.push_back(surface(grid_mesh({-0.4, -0.6, 2}, {1, 0.2, 0}, {-0.2, 1, 0}, 1), 0.6f));
   const RayScene scene(std::move(surfaces));
@@ -186,14 +186,14 @@ TEST(Sensors, EdgesMixAndFewMixturesSurviveAWideGap) {
 }
 
 TEST(Sensors, DarkClothAndChromeGiveHoles) {
-  const auto holes = [](Surface wall) {
+  const auto holes = [](RaySurface wall) {
     const SensorFrame frame = measure(scene_of(std::move(wall)), "fankhauser");
     return 1 - static_cast<double>(cv::countNonZero(frame.depth_mm(cv::Rect(100, 80, 56, 52)))) / (56 * 52);
   };
   EXPECT_LT(holes(plane(2.1, 0, 0.4f)), 0.001);
   EXPECT_NEAR(holes(plane(2.1, 0, 0.05f)), 0.02, 0.02);
   EXPECT_NEAR(holes(plane(2.1, 60, 0.05f)), 0.46, 0.15);
-  Surface chrome = plane(2.1, 20);
+  RaySurface chrome = plane(2.1, 20);
   chrome.material.chrome = true;
   EXPECT_GT(holes(std::move(chrome)), 0.9);
 }
@@ -208,7 +208,7 @@ TEST(Sensors, InfraredFallsWithDistanceAndAngle) {
 }
 
 TEST(Sensors, EveryModelGivesTheSameBytesForAnyThreadCount) {
-  std::vector<Surface> surfaces;
+  std::vector<RaySurface> surfaces;
   surfaces.push_back(plane(4, 30));
   surfaces.push_back(surface(sphere_mesh({0, 0, 2}, 0.5, 60), 0.4f, true));
   const RayScene scene(std::move(surfaces));
@@ -224,7 +224,7 @@ TEST(Sensors, EveryModelGivesTheSameBytesForAnyThreadCount) {
 }
 
 TEST(Sensors, EveryModelSurvivesAnEmptyWorld) {
-  const RayScene nothing(std::vector<Surface>{});
+  const RayScene nothing(std::vector<RaySurface>{});
   for (const auto& model : SensorModel::names()) EXPECT_EQ(cv::countNonZero(measure(nothing, model).depth_mm), 0);
 }
 
