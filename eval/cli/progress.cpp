@@ -18,8 +18,7 @@ void Progress::update(const std::string& what, int done, int total) {
     return;
   }
   const int tenth = total > 0 ? done * 10 / total : -1;
-  if (what == current_ && tenth == last_tenth_) return;
-  current_ = what;
+  if (tenth == last_tenth_) return;
   last_tenth_ = tenth;
   if (total > 0) fmt::print(stderr, "{}{}\n", what, part);
 }

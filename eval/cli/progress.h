@@ -15,7 +15,6 @@ class Progress {
  private:
   bool quiet_, terminal_;
   int last_tenth_ = -1;
-  std::string current_;
 };
 
 std::string seconds_text(double seconds);

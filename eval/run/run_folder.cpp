@@ -78,6 +78,7 @@ void RunFolder::save() const {
   text["format"] = "dressform-run";
   text["version"] = 1;
   text["products"] = products_;
+  fs::create_directories(folder_);
   write_file_atomically(folder_ / "run.json", text.dump(1) + "\n");
 }
 
