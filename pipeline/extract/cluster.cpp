@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "pipeline/common/color_mapping.h"
+#include "pipeline/common/floor.h"
 #include "pipeline/extract/body_region.h"
 #include "pipeline/extract/color_outline.h"
 #include "pipeline/extract/extract.h"
-#include "pipeline/common/floor.h"
 #include "scenes/random.h"
 
 namespace dressform {

@@ -12,8 +12,9 @@
 namespace dressform {
 namespace {
 
-constexpr int kBlocks = 12;     // colour models along the body's height
-constexpr float kMostNats = 4;  // of one cue
+constexpr int kBlocks = 12;      // colour models along the body's height
+constexpr float kMostNats = 4;   // of one cue
+constexpr float kColorNats = 2;  // of the colour models, which confuse skin and a wall alike
 
 cv::Mat ellipse(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
@@ -73,13 +74,17 @@ double median_of(const cv::Mat& values, const cv::Mat& mask, double otherwise) {
 }
 
 // Nats in favour of the surroundings where the picture equals the one without clothes.
-void add_unchanged(const cv::Mat& bgr, const Background& background, const cv::Mat& around, cv::Mat& cost) {
+void add_unchanged(const cv::Mat& bgr, const Background& background, const cv::Mat& around, int margin_px,
+                   cv::Mat& cost) {
   const cv::Mat change = color_distance(bgr, background.bgr);
-  cv::Mat visible = around & (background.body == 0);
+  // Near the naked body's outline, bare skin is unchanged too.
+  cv::Mat near_body;
+  cv::dilate(background.body, near_body, ellipse(margin_px));
+  cv::Mat visible = around & (near_body == 0);
   const double noise = std::max(1.5, median_of(change, visible, 2));
   for (int y = 0; y < cost.rows; ++y) {
     for (int x = 0; x < cost.cols; ++x) {
-      if (background.body.at<uchar>(y, x)) continue;
+      if (near_body.at<uchar>(y, x)) continue;
       const float nats = kMostNats * (1 - change.at<uchar>(y, x) / static_cast<float>(4 * noise));
       cost.at<float>(y, x) += std::clamp(nats, -kMostNats, kMostNats);
     }
@@ -95,7 +100,7 @@ cv::Mat color_cost(const cv::Mat& lab, const LocalModels& models, const cv::Mat&
       const auto& color = lab.at<cv::Vec3b>(y, x);
       const float nats = models.around[block].log_density(color) - models.body[block].log_density(color);
       const float away = distance_px.at<float>(y, x) / static_cast<float>(band_px);
-      cost.at<float>(y, x) = std::clamp(nats, -kMostNats, kMostNats) + std::clamp(2 * away, -kMostNats, kMostNats);
+      cost.at<float>(y, x) = std::clamp(nats, -kColorNats, kColorNats) + std::clamp(3 * away, -kMostNats, kMostNats);
     }
   }
   return cost;
@@ -116,6 +121,8 @@ cv::Mat color_outline(const cv::Mat& bgr, const cv::Mat& depth_mm, const cv::Mat
   cv::Mat result = cv::Mat::zeros(bgr.size(), CV_8U);
   if (cv::countNonZero(body) == 0) return result;
   const double scale = sensor.color->width / 1920.0;
+  // The outermost depth pixels are lost to mixing: the true outline lies about half a depth pixel further out.
+  const double lost_px = 0.5 * sensor.color->fx / sensor.ir.fx;
   const int band = std::max(2, cvRound(params.band_px * scale)),
             unknown = std::max(4, cvRound(params.unknown_px * scale));
   cv::morphologyEx(body, body, cv::MORPH_CLOSE, ellipse(std::max(1, band / 2)));
@@ -123,14 +130,14 @@ cv::Mat color_outline(const cv::Mat& bgr, const cv::Mat& depth_mm, const cv::Mat
   const cv::Rect box = grown_box(body, 3 * unknown);
   known = known(box).clone();
   body = body(box).clone();
-  const cv::Mat distance_px = signed_distance_px(body);
+  const cv::Mat distance_px = signed_distance_px(body) - lost_px;
   const cv::Mat near = cv::abs(distance_px) < band;
   const cv::Mat active = near | ((distance_px > 0) & (distance_px < unknown) & (known == 0));
   const cv::Mat sure_body = distance_px < -band, around = (distance_px > band) & (distance_px < 3 * unknown) & ~active;
 
   const cv::Mat lab = smoothed_lab(bgr(box));
   cv::Mat cost = color_cost(lab, learn(lab, sure_body, around), distance_px, band);
-  if (background) add_unchanged(bgr(box), {background->bgr(box), background->body(box)}, around, cost);
+  if (background) add_unchanged(bgr(box), {background->bgr(box), background->body(box)}, around, band, cost);
   cv::Mat cut = binary_cut(lab, cost, active, body, {params.smoothness, 0.05});
   cv::morphologyEx(cut, cut, cv::MORPH_OPEN, ellipse(1));
   cut.copyTo(result(box));

@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/common/analytic_scene.h"
-#include "pipeline/extract/depth_components.h"
 #include "pipeline/common/floor.h"
+#include "pipeline/extract/depth_components.h"
 
 namespace dressform {
 namespace {

@@ -10,14 +10,14 @@
 namespace dressform {
 namespace {
 
-// The body without arms: what carries the garment behind a hanging arm.
-Mesh without_arms(const Mesh& body) {
+PartedBody parted(const Mesh& body) {
   const BodyLimbs limbs = find_limbs(body);
-  Mesh rest{body.vertices, {}};
-  for (std::size_t k = 0; k < body.triangles.size(); ++k)
-    if (limbs.triangle_parts[k] != BodyPart::left_arm && limbs.triangle_parts[k] != BodyPart::right_arm)
-      rest.triangles.push_back(body.triangles[k]);
-  return rest;
+  Mesh trunk{body.vertices, {}}, arms{body.vertices, {}};
+  for (std::size_t k = 0; k < body.triangles.size(); ++k) {
+    const bool arm = limbs.triangle_parts[k] == BodyPart::left_arm || limbs.triangle_parts[k] == BodyPart::right_arm;
+    (arm ? arms : trunk).triangles.push_back(body.triangles[k]);
+  }
+  return {MeshQuery(trunk), MeshQuery(arms)};
 }
 
 FilledGarment nothing(const cv::Size& color, const cv::Size& ir) {
@@ -25,7 +25,7 @@ FilledGarment nothing(const cv::Size& color, const cv::Size& ir) {
           cv::Mat::zeros(ir, CV_8U)};
 }
 
-GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentView view, const MeshQuery& body,
+GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentView view, const PartedBody& body,
                          const HoleParams& holes) {
   const cv::Mat seen = garment_depth(shot, view.label);
   const cv::Mat hidden = hidden_depth(shot, view.label, seen, view.calibration.ir, view.model_from_sensor, body, holes);
@@ -62,7 +62,7 @@ FilledViews fill_views(const CaptureSession& session, const Calibration& calibra
                        const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color) {
   const auto labels = worn(segmentation);
   const std::size_t sensors = session.sensors.size();
-  const MeshQuery body(without_arms(naked.body));
+  const PartedBody body = parted(naked.body);
   std::vector<std::vector<GarmentView>> views(labels.size(), std::vector<GarmentView>(sensors));
   tbb::parallel_for(std::size_t{0}, sensors, [&](std::size_t k) {
     const std::string& sensor = session.sensors[k];

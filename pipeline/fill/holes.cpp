@@ -8,6 +8,7 @@ namespace dressform {
 namespace {
 
 constexpr int kSweeps = 600;
+constexpr double kLeastCosine = 0.25;  // grazing body says little of the gap
 constexpr float kOverRelaxation = 1.85f;
 
 // What a pixel is to the garment: its own, something worn in front, without depth, or the room.
@@ -51,19 +52,42 @@ void mark_row(const LabelledShot& shot, Label label, int y, const HoleParams& pa
   }
 }
 
-// Depth, mm, of the limbless body along every pixel of the domain and its surroundings; 0 = missed.
-cv::Mat body_depth_mm(const cv::Mat& wanted, const Camera& ir, const Isometry3d& model_from_sensor,
-                      const MeshQuery& body) {
-  cv::Mat depth = cv::Mat::zeros(wanted.size(), CV_32F);
+// The limbless body along every wanted pixel. A ray that meets the inside, through the opening an arm left, misses.
+struct BodyMap {
+  cv::Mat depth_mm;  // 0 = missed
+  cv::Mat cosine;    // between the line of sight and the surface's normal
+};
+
+BodyMap body_map(const cv::Mat& wanted, const Camera& ir, const Isometry3d& model_from_sensor, const MeshQuery& body) {
+  BodyMap map{cv::Mat::zeros(wanted.size(), CV_32F), cv::Mat::ones(wanted.size(), CV_32F)};
   for (int y = 0; y < wanted.rows; ++y) {
     for (int x = 0; x < wanted.cols; ++x) {
       if (!wanted.at<uchar>(y, x)) continue;
       const Vector3d ray = model_from_sensor.linear() * ir.unproject(Vector2d(x, y), 1);
-      if (const auto hit = body.first_hit(model_from_sensor.translation(), ray))
-        depth.at<float>(y, x) = static_cast<float>(1000 * hit->distance);
+      const auto hit = body.first_hit(model_from_sensor.translation(), ray);
+      if (!hit) continue;
+      const double cosine = -body.normal(hit->triangle).dot(ray) / ray.norm();
+      if (cosine < kLeastCosine) continue;
+      map.depth_mm.at<float>(y, x) = static_cast<float>(1000 * hit->distance);
+      map.cosine.at<float>(y, x) = static_cast<float>(cosine);
     }
   }
-  return depth;
+  return map;
+}
+
+// 255 where a seen pixel is nearer to the arms than to the trunk.
+cv::Mat on_the_arms(const cv::Mat& wanted, const cv::Mat& seen_mm, const Camera& ir,
+                    const Isometry3d& model_from_sensor, const PartedBody& body) {
+  cv::Mat arms = cv::Mat::zeros(wanted.size(), CV_8U);
+  for (int y = 0; y < wanted.rows; ++y) {
+    for (int x = 0; x < wanted.cols; ++x) {
+      const float z = seen_mm.at<float>(y, x);
+      if (!wanted.at<uchar>(y, x) || !(z > 0)) continue;
+      const Vector3d point = model_from_sensor * ir.unproject(Vector2d(x, y), z / 1000);
+      if (body.arms.closest(point).distance < body.trunk.closest(point).distance) arms.at<uchar>(y, x) = 255;
+    }
+  }
+  return arms;
 }
 
 // Drops pieces that are small, or of which a large part fails the test.
@@ -126,7 +150,7 @@ cv::Mat membrane(const cv::Mat& values, const cv::Mat& known, const cv::Mat& dom
 }
 
 cv::Mat hidden_depth(const LabelledShot& shot, Label label, const cv::Mat& seen_mm, const Camera& ir,
-                     const Isometry3d& model_from_sensor, const MeshQuery& body, const HoleParams& params) {
+                     const Isometry3d& model_from_sensor, const PartedBody& body, const HoleParams& params) {
   cv::Mat hole = cv::Mat::zeros(seen_mm.size(), CV_8U), filled = cv::Mat::zeros(seen_mm.size(), CV_32F);
   for (int y = 0; y < hole.rows; ++y) mark_row(shot, label, y, params, hole);
   if (cv::countNonZero(hole) == 0) return filled;
@@ -136,15 +160,16 @@ cv::Mat hidden_depth(const LabelledShot& shot, Label label, const cv::Mat& seen_
   cv::dilate(hole, near, cv::Mat(), {-1, -1}, 3);
   const cv::Mat own = shot.label == static_cast<int>(label);
   const cv::Mat domain = hole | (near & own & (seen_mm == 0));
-  const cv::Mat body_mm = body_depth_mm(near, ir, model_from_sensor, body);
-  cv::Mat gap = body_mm - seen_mm;
-  cv::Mat known = (seen_mm > 0) & (body_mm > 0) & (domain == 0);
-  known &= cv::abs(gap) < 250;
+  const BodyMap limbless = body_map(near, ir, model_from_sensor, body.trunk);
+  // Cloth keeps its distance along the normal, not along the line of sight.
+  cv::Mat gap = (limbless.depth_mm - seen_mm).mul(limbless.cosine);
+  const cv::Mat known = (seen_mm > 0) & (limbless.depth_mm > 0) & (domain == 0) & (cv::abs(gap) < 200) &
+                        ~on_the_arms(near, seen_mm, ir, model_from_sensor, body);
   gap = membrane(gap, known, domain);
-  const cv::Mat depth = body_mm - gap;
+  const cv::Mat depth = limbless.depth_mm - gap / limbless.cosine;
   const cv::Mat measured = shot.depth_mm;
   const cv::Mat free = (measured == 0) | (depth > measured + params.nearer_mm);
-  accepted(hole, free & (body_mm > 0), params.least_px).copyTo(hole);
+  accepted(hole, free & (limbless.depth_mm > 0), params.least_px).copyTo(hole);
   depth.copyTo(filled, hole);
   return filled;
 }
