@@ -54,17 +54,39 @@ std::vector<TruthRim> name_rims(const Mesh& mesh, const std::vector<RimCut>& cut
   return rims;
 }
 
-Garment procedural_garment(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
-  const GarmentShape shape = maker_of(spec.kind)(spec, body, inner, seed);
+// One piece of genus 0 with exactly the openings that were cut.
+bool cut_as_planned(const Mesh& mesh, size_t openings) {
+  const Topology shape = topology(mesh);
+  return shape.components == 1 && shape.non_manifold_edges == 0 && shape.loops == static_cast<int>(openings) &&
+         shape.euler() == 2 - static_cast<int>(openings);
+}
+
+Mesh sew(const GarmentShape& shape, const Body& body, const std::vector<Garment>& inner) {
   Mesh mesh = contour(shape.field, shape.box, kStep);
   for (const RimCut& cut : shape.cuts) mesh = largest_part(cut_off(std::move(mesh), cut.beyond));
   mesh = pushed_clear(mesh, body.mesh, 0.0045);
   for (const Garment& under : inner) mesh = pushed_clear(mesh, under.textured.mesh, 0.0030);
   for (const Level& seam : shape.seams) split_along(mesh, seam);
-  Garment garment;
-  garment.rims = name_rims(mesh, shape.cuts);
-  garment.textured = textured_garment(mesh, shape, spec.print, seed);
-  return garment;
+  return mesh;
+}
+
+Garment procedural_garment(const GarmentSpec& asked, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+  GarmentSpec spec = asked;
+  // Where wide cloth runs into itself (a sleeve into the hip), it is cut closer.
+  for (const double part : {1.0, 0.6, 0.3, 0.0}) {
+    spec.ease_m = part * asked.ease_m;
+    spec.fold_amplitude_m = part * asked.fold_amplitude_m;
+    const GarmentShape shape = maker_of(spec.kind)(spec, body, inner, seed);
+    const Mesh mesh = sew(shape, body, inner);
+    if (!cut_as_planned(mesh, shape.cuts.size())) continue;
+    Garment garment;
+    garment.rims = name_rims(mesh, shape.cuts);
+    garment.textured = textured_garment(mesh, shape, spec.print, seed);
+    return garment;
+  }
+  throw InputError("garment." + asked.kind,
+                   "found cloth that runs into itself on this body; expected limbs that stand "
+                   "clear of the trunk and of one another");
 }
 
 Vector3d mean_of(const std::vector<Vector3d>& points) {

@@ -61,12 +61,13 @@ ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, do
       },
       spec.fold_amplitude_m, seed, stream_of("leg creases") + (side > 0 ? 0 : 1));
   const double ease = 0.003 + 0.7 * spec.ease_m / (2 * M_PI);
-  // Between the thighs there is no room for folds.
+  // Between the thighs there is no room for ease or folds.
   const auto height = [&](double s, double angle) {
-    const double t = std::clamp((m.crotch - s) / 0.10, 0.0, 1.0), inner_side = 0.5 - 0.5 * std::cos(angle);
-    return (1 - (1 - t) * inner_side) * crease_height(creases, s, angle, 0.08);
+    const double t = std::clamp((m.crotch - s - 0.03) / 0.22, 0.0, 1.0), inner_side = 0.5 - 0.5 * std::cos(angle);
+    const double room = 1 - (1 - t) * inner_side * inner_side;
+    return room * (ease + crease_height(creases, s, angle, 0.08));
   };
-  return no_smaller(displaced(grown(hung, ease), height), least, 0.005);
+  return no_smaller(displaced(hung, height), least, 0.004);
 }
 
 }  // namespace
@@ -74,15 +75,20 @@ ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, do
 GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   const BodyLandmarks& m = body.landmarks;
   const double waist_y = m.waist - 0.015, ankle_y = std::max(m.ankle, 0.03);
-  const double hem_y = waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y);
+  // The shortest legs are 7 cm long: above that they are still one with the seat.
+  const double hem_y = std::min(waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y), m.crotch - 0.07);
   const Tube seat = trousers_seat(spec, body, inner, seed).tube();
   const Tube left = trouser_leg(spec, body, 1, hem_y, seed).tube();
   const Tube right = trouser_leg(spec, body, -1, hem_y, seed).tube();
 
   GarmentShape shape;
-  shape.field = [seat, left, right](const Vector3d& p) {
-    const double legs = smooth_union(left.field(p), right.field(p), 0.008);
-    return smooth_union(seat.field(p), legs, 0.02);
+  // Each leg stays on its own side of the middle, further off the further below the crotch.
+  const double middle = 0.5 * (leg_frame(body, 1).origin.x() + leg_frame(body, -1).origin.x()), crotch = m.crotch;
+  shape.field = [seat, left, right, middle, crotch](const Vector3d& p) {
+    const double off_middle = 0.001 + 0.006 * std::clamp((crotch - 0.01 - p.y()) / 0.06, 0.0, 1.0);
+    const double left_leg = smooth_intersection(left.field(p), off_middle - (p.x() - middle), 0.004);
+    const double right_leg = smooth_intersection(right.field(p), off_middle + (p.x() - middle), 0.004);
+    return smooth_union(seat.field(p), std::min(left_leg, right_leg), 0.02);
   };
   shape.box = {Vector3d(-0.45, left.s_min() - 0.01, -0.40), Vector3d(0.45, seat.s_max() + 0.01, 0.40)};
 
@@ -97,7 +103,6 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
   }
 
   const ArcLength seat_arc(seat), left_arc(left), right_arc(right);
-  const double crotch = m.crotch;
   for (const double side : {1.0, -1.0}) {
     const Tube leg = side > 0 ? left : right;
     const ArcLength leg_arc = side > 0 ? left_arc : right_arc;
