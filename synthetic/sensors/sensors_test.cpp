@@ -69,8 +69,8 @@ TEST(Sensors, RegisteredModels) { EXPECT_THAT(SensorModel::names(), testing::IsS
 
 TEST(Sensors, UnknownModelAndParameterAreInputErrors) {
   EXPECT_THROW(SensorModel::at("sonar"), InputError);
-  EXPECT_THROW(SensorModel::at("ideal").check({{"minimum", 1.0}}), InputError);
-  EXPECT_THROW(SensorModel::at("fankhauser").check({{"noise_scale", -1.0}}), InputError);
+  EXPECT_THROW(SensorModel::at("ideal").complete({{"minimum", 1.0}}), InputError);
+  EXPECT_THROW(SensorModel::at("fankhauser").complete({{"noise_scale", -1.0}}), InputError);
 }
 
 TEST(Sensors, IdealPlaneIsExact) {
