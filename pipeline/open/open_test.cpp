@@ -37,7 +37,7 @@ Cap cap_above(const Mesh& mesh, const Vector3d& axis, double height) {
 TEST(Cut, BallWithThreeCapsOff) {
   const Mesh closed = ball(0.1);
   const std::vector<Cap> caps{cap_above(closed, Vector3d::UnitY(), 0.05), cap_above(closed, -Vector3d::UnitY(), 0.06),
-                              cap_above(closed, Vector3d::UnitX(), 0.085)};
+                              cap_above(closed, Vector3d::UnitX(), 0.092)};
   const CutResult cut = cut_caps(closed, caps);
   expect_open(cut.mesh, 3);
   for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
@@ -49,7 +49,7 @@ TEST(Cut, BallWithThreeCapsOff) {
       EXPECT_NEAR(v.y(), -0.06, 2e-4);
     }
     if (cut.cap_of_vertex[i] == 2) {
-      EXPECT_NEAR(v.x(), 0.085, 2e-4);
+      EXPECT_NEAR(v.x(), 0.092, 2e-4);
     }
   }
   const Mesh tidy = without_slivers(cut.mesh, 0.003);
@@ -58,7 +58,7 @@ TEST(Cut, BallWithThreeCapsOff) {
   for (const auto& loop : boundary_loops(tidy))
     for (const int v : loop) {
       const Vector3d& p = tidy.vertices[v];
-      EXPECT_LT(std::min({std::abs(p.y() - 0.05), std::abs(p.y() + 0.06), std::abs(p.x() - 0.085)}), 3e-4);
+      EXPECT_LT(std::min({std::abs(p.y() - 0.05), std::abs(p.y() + 0.06), std::abs(p.x() - 0.092)}), 3e-4);
     }
 }
 
@@ -131,13 +131,13 @@ TEST_P(EveryOpening, ShirtAndTrousersHaveTheirRims) {
   for (const char* name : {"neck", "left_cuff", "right_cuff", "hem"}) ASSERT_TRUE(rim_named(top, name)) << name;
   for (const char* name : {"waist", "left_ankle", "right_ankle"}) ASSERT_TRUE(rim_named(bottom, name)) << name;
   EXPECT_NEAR(mean_y(*rim_named(top, "hem")), capture.clothes.hem_y, 0.010);
-  EXPECT_NEAR(mean_y(*rim_named(top, "neck")), capture.clothes.neck_y, 0.015);
+  EXPECT_NEAR(mean_y(*rim_named(top, "neck")), capture.clothes.neck_y, 0.025);
   for (const double side : {1.0, -1.0}) {
     const Rim* cuff = rim_named(top, side > 0 ? "left_cuff" : "right_cuff");
     EXPECT_GT(cuff->points[0].x() * side, 0.1);  // faces +z: its left is at +x
     for (const Vector3d& p : cuff->points) EXPECT_NEAR(figure::along_arm(p, side), capture.clothes.sleeve_m, 0.025);
     const Rim* ankle = rim_named(bottom, side > 0 ? "left_ankle" : "right_ankle");
-    EXPECT_NEAR(mean_y(*ankle), capture.clothes.ankle_y, 0.012);
+    EXPECT_NEAR(mean_y(*ankle), capture.clothes.ankle_y, 0.016);
     EXPECT_GT(ankle->points[0].x() * side, 0);
   }
   EXPECT_FALSE(rim_named(bottom, "waist")->observed);

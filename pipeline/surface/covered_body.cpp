@@ -7,17 +7,24 @@
 namespace dressform {
 namespace {
 
-constexpr double kEndQuantile = 0.003;  // of the points, beyond which an end does not reach
+constexpr double kEndPart = 0.0005;  // of the points (and four at least) may lie beyond an end as strays
 constexpr int kTubeSides = 72;
 constexpr double kTubeStep_m = 0.02;
 constexpr double kForkSeam_m = 0.015;  // limbs are told apart this far below the armpit or crotch
 constexpr double kBeyond_m = 0.04;     // body kept past the caps, so that the surface runs straight up to them
 
-double quantile(std::vector<double> values, double part) {
+// The least value when a few strays are left out.
+double lower_end(std::vector<double> values) {
+  const std::size_t strays = std::max<std::size_t>(4, static_cast<std::size_t>(kEndPart * values.size()));
   if (values.empty()) return 0;
-  const auto at = values.begin() + std::min(values.size() - 1, static_cast<std::size_t>(part * values.size()));
+  const auto at = values.begin() + std::min(values.size() - 1, strays);
   std::nth_element(values.begin(), at, values.end());
   return *at;
+}
+
+double upper_end(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return -lower_end(std::move(values));
 }
 
 bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
@@ -188,12 +195,12 @@ GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud
                          : 1;
     legs[side].push_back(p.y());
   }
-  extent.top_y = quantile(heights, 1 - kEndQuantile);
-  extent.bottom_y = quantile(heights, kEndQuantile);
+  extent.top_y = upper_end(heights);
+  extent.bottom_y = lower_end(heights);
   for (int side = 0; side < 2; ++side) {
     extent.has_arm[side] = limbs.arm(side) && garment == "top";
-    extent.arm_along[side] = arms[side].size() < 20 ? 0 : quantile(arms[side], 1 - kEndQuantile);
-    extent.leg_bottom_y[side] = legs[side].size() < 20 ? extent.bottom_y : quantile(legs[side], kEndQuantile);
+    extent.arm_along[side] = arms[side].size() < 20 ? 0 : upper_end(arms[side]);
+    extent.leg_bottom_y[side] = legs[side].size() < 20 ? extent.bottom_y : lower_end(legs[side]);
   }
   extent.forked = garment == "bottom" && goes_round_each_leg(around_legs, limbs, extent.bottom_y);
   return extent;

@@ -12,6 +12,8 @@ namespace dressform {
 namespace {
 
 constexpr double kMadeUpWeight = 0.15;
+constexpr double kAboveFloor_m = 0.03;   // lower points may be the floor
+constexpr double kAtAnkles_m = 0.10;     // farthest off the legs that depth without colour counts as cloth
 constexpr double kLargestShift_mm = 10;  // smoothing moves no depth further
 
 struct Nearest {
@@ -120,7 +122,8 @@ cv::Mat extended_depth(const cv::Mat& garment_mm, const DepthView& view, const M
       const LocalPlane plane = fit_plane(view.depth_mm, view.rays, next.x, next.y, params.smooth_px, params.jump_mm);
       if (!plane.found) continue;
       const Vector3d point = view.model_from_sensor * (seen * (plane.depth_mm / z));
-      const auto closest = naked.closest(point, params.outside_body_m);
+      if (point.y() < limbs.floor_y + kAboveFloor_m) continue;
+      const auto closest = naked.closest(point, kAtAnkles_m);
       if (closest.triangle < 0 || !is_leg(limbs.triangle_parts[closest.triangle])) continue;
       if (naked.signed_distance(point, closest) < params.off_skin_m) continue;
       result.at<float>(next) = z;

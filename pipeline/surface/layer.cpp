@@ -21,7 +21,7 @@ struct LayerParams {
   double reach_m = 0.018;
   double stiffness = 6.0;
   int sweeps = 12;
-  double margin_m = 0.04;
+  double margin_m = 0.05;
   double carve_m = 0.03;
   double edge_m = 0.008;
   int fewest_points = 300;
