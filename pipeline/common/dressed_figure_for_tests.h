@@ -42,7 +42,7 @@ inline double along_arm(const Vector3d& p, double side) {
 
 struct Clothes {
   double sleeve_m = 0.30;  // from the shoulder's centre to the cuff
-  double neck_y = 1.53, hem_y = 0.98;
+  double neck_y = 1.48, hem_y = 0.98;
   double waist_y = 1.08, ankle_y = 0.25;
   bool skirt = false;
   double shirt_ease_m = 0.020, bottom_ease_m = 0.010;

@@ -131,7 +131,8 @@ TEST_P(EveryOpening, ShirtAndTrousersHaveTheirRims) {
   for (const char* name : {"neck", "left_cuff", "right_cuff", "hem"}) ASSERT_TRUE(rim_named(top, name)) << name;
   for (const char* name : {"waist", "left_ankle", "right_ankle"}) ASSERT_TRUE(rim_named(bottom, name)) << name;
   EXPECT_NEAR(mean_y(*rim_named(top, "hem")), capture.clothes.hem_y, 0.010);
-  EXPECT_NEAR(mean_y(*rim_named(top, "neck")), capture.clothes.neck_y, 0.025);
+  // The figure's shoulders are nearly level there: height says little of where on them the rim lies.
+  EXPECT_NEAR(mean_y(*rim_named(top, "neck")), capture.clothes.neck_y, 0.06);
   for (const double side : {1.0, -1.0}) {
     const Rim* cuff = rim_named(top, side > 0 ? "left_cuff" : "right_cuff");
     EXPECT_GT(cuff->points[0].x() * side, 0.1);  // faces +z: its left is at +x
