@@ -13,7 +13,7 @@ namespace {
 constexpr int kBins = 180;  // of 2 degrees
 
 // Crotch height over stature, mean .482 and correlation .86 in ANSUR II: beyond these bounds it is not the crotch.
-constexpr double kLowestCrotch = 0.435, kHighestCrotch = 0.53;
+constexpr double kLowestCrotch = 0.435, kHighestCrotch = 0.53, kMeanCrotch = 0.475;
 constexpr double kLowestArmpit = 0.69, kHighestArmpit = 0.80;
 
 double mean_girth_near(const StandingBody& body, double y) {
@@ -22,6 +22,36 @@ double mean_girth_near(const StandingBody& body, double y) {
   for (double d = -0.02; d < 0.021; d += 0.01)
     if (const SectionLoop* loop = body.trunk_loop(y + d)) sum += tape_girth(*loop), ++count;
   return count ? sum / count : std::numeric_limits<double>::infinity();
+}
+
+// Front-to-back extent of a loop where it crosses the line at `offset` to the left of its centroid.
+double depth_at(const SectionLoop& loop, const BodyLimbs& limbs, double offset) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0, j = loop.points.size() - 1; i < loop.points.size(); j = i++) {
+    const Vector3d a = loop.points[j] - loop.centroid, b = loop.points[i] - loop.centroid;
+    const double x = a.dot(limbs.left) - offset, y = b.dot(limbs.left) - offset;
+    if ((x < 0) == (y < 0)) continue;
+    const double at = (a + x / (x - y) * (b - a)).dot(limbs.front);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return std::max(0.0, high - low);
+}
+
+// The crotch by topology, or higher, where the section is two thighs that only touch: much less deep in the middle than
+// to either side.
+double find_crotch(const StandingBody& body) {
+  const double floor = body.limbs.floor_y, lowest = floor + kLowestCrotch * body.stature;
+  const double highest = floor + kHighestCrotch * body.stature;
+  const double by_topology = body.limbs.crotch_y;
+  for (double y = highest; y > std::max(lowest, by_topology); y -= body.sections.step) {
+    const SectionLoop* loop = body.trunk_loop(y);
+    if (!loop || loop->points.size() < 8) continue;
+    const double side = 0.055 * body.stature;  // about the middle of a thigh
+    const double middle = depth_at(*loop, body.limbs, 0);
+    if (middle < 0.45 * std::min(depth_at(*loop, body.limbs, side), depth_at(*loop, body.limbs, -side))) return y;
+  }
+  return by_topology < lowest ? floor + kMeanCrotch * body.stature : std::min(by_topology, highest);
 }
 
 // The narrowest height of the trunk; the pull to its middle decides where a belly leaves no waist.
@@ -48,6 +78,19 @@ double find_hip(const StandingBody& body) {
     best_y = y;
   }
   return best_y > 0 ? best_y : body.crotch_y + 0.25 * (body.waist_y - body.crotch_y);
+}
+
+// The narrowest height between shoulders and chin; the pull to where necks are keeps it off the crown.
+double find_neck(const StandingBody& body) {
+  double best_part = 0.862, best = std::numeric_limits<double>::infinity();
+  for (double part = 0.825; part <= 0.905; part += 0.005) {
+    const double girth = mean_girth_near(body, body.limbs.floor_y + part * body.stature);
+    const double cost = girth * (1 + 60 * (part - 0.862) * (part - 0.862));
+    if (cost >= best) continue;
+    best = cost;
+    best_part = part;
+  }
+  return body.limbs.floor_y + best_part * body.stature;
 }
 
 // How far the body reaches from the axis in each direction (0 = front), at one part of the stature: the trunk's loop,
@@ -138,13 +181,14 @@ StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front
   body.sections = horizontal_sections(mesh);
   const double floor = body.limbs.floor_y;
   body.stature = body.limbs.top_y - floor;
-  body.crotch_y =
-      std::clamp(body.limbs.crotch_y, floor + kLowestCrotch * body.stature, floor + kHighestCrotch * body.stature);
+  body.crotch_y = find_crotch(body);
   body.armpit_y =
       std::clamp(body.limbs.armpit_y, floor + kLowestArmpit * body.stature, floor + kHighestArmpit * body.stature);
-  body.neck_y = std::clamp(body.limbs.neck_y, floor + 0.80 * body.stature, floor + 0.92 * body.stature);
+  body.neck_y = find_neck(body);
   body.waist_y = find_waist(body);
   body.hip_y = find_hip(body);
+  // Hips and waist are told from where the legs part; cloth between thighs that are one piece can only be below it.
+  body.crotch_y = std::min(body.crotch_y, std::max(body.limbs.crotch_y, floor + kLowestCrotch * body.stature));
   int count = 0;
   for (double y = body.crotch_y; y < body.armpit_y; y += body.sections.step)
     if (const SectionLoop* loop = body.trunk_loop(y)) body.axis += loop->centroid, ++count;
