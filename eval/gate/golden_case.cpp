@@ -87,6 +87,7 @@ GoldenCase read_golden_case(const fs::path& golden, const std::string& name) {
 }
 
 void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
+  fs::create_directories(golden / golden_case.name);
   json scores = json::array(), pictures = json::object();
   for (const auto& score : golden_case.scores)
     scores.push_back({{"stage", score.row.stage},
