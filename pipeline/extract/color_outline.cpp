@@ -140,6 +140,10 @@ cv::Mat color_outline(const cv::Mat& bgr, const cv::Mat& depth_mm, const cv::Mat
   if (background) add_unchanged(bgr(box), {background->bgr(box), background->body(box)}, around, band, cost);
   cv::Mat cut = binary_cut(lab, cost, active, body, {params.smoothness, 0.05});
   cv::morphologyEx(cut, cut, cv::MORPH_OPEN, ellipse(1));
+  // Bites into the outline that depth does not show: a print of the wall's colour.
+  cv::Mat closed;
+  cv::morphologyEx(cut, closed, cv::MORPH_CLOSE, ellipse(band));
+  closed.copyTo(cut, (known == 0) & (cost < kMostNats / 2));
   cut.copyTo(result(box));
   return result;
 }

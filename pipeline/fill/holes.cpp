@@ -154,6 +154,9 @@ cv::Mat hidden_depth(const LabelledShot& shot, Label label, const cv::Mat& seen_
   cv::Mat hole = cv::Mat::zeros(seen_mm.size(), CV_8U), filled = cv::Mat::zeros(seen_mm.size(), CV_32F);
   for (int y = 0; y < hole.rows; ++y) mark_row(shot, label, y, params, hole);
   if (cv::countNonZero(hole) == 0) return filled;
+  const cv::Mat upright = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(1, 5));
+  cv::morphologyEx(hole, hole, cv::MORPH_CLOSE, upright);
+  hole.setTo(0, shot.label == static_cast<int>(label));
 
   // The garment's own pixels beside the hole were dropped as edges: the membrane runs on to the certain ones.
   cv::Mat near;

@@ -66,10 +66,9 @@ cv::Vec3d gain(const GarmentView& view, const GarmentView& other) {
 cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, const ReprojectParams& params) {
   const GarmentView& view = views[index];
   cv::Mat color = view.garment.color.clone();
-  // Inpainting must take its colours from the garment, not from the arm beside the hole.
-  cv::Mat grown, missing;
-  cv::dilate(view.garment.mask == 128, grown, cv::Mat(), {-1, -1}, 3);
-  missing = grown & (view.garment.mask != 255);
+  // Inpainting must take its colours from well inside the garment, not from the arm beside the hole.
+  cv::Mat hole = view.garment.mask == 128, inside;
+  cv::erode(view.garment.mask == 255, inside, cv::Mat(), {-1, -1}, 2);
   std::vector<cv::Vec3d> gains;
   for (const GarmentView& other : views) gains.push_back(other.labels.empty() ? cv::Vec3d(1, 1, 1) : gain(view, other));
   for (int y = 0; y < color.rows; ++y) {
@@ -83,19 +82,21 @@ cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, const Re
         if (found.facing < 0.2) continue;
         for (int c = 0; c < 3; ++c)
           color.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(gains[k][c] * found.color[c]);
-        missing.at<uchar>(y, x) = 0;
+        hole.at<uchar>(y, x) = 0;
+        inside.at<uchar>(y, x) = 255;
         break;
       }
     }
   }
-  const cv::Rect hole = cv::boundingRect(missing);
-  if (hole.empty()) return color;
-  const int margin = 8;
-  const cv::Rect box = cv::Rect(hole.x - margin, hole.y - margin, hole.width + 2 * margin, hole.height + 2 * margin) &
-                       cv::Rect({0, 0}, color.size());
+  if (cv::countNonZero(hole) == 0) return color;
+  const int margin = 12;
+  const cv::Rect tight = cv::boundingRect(hole);
+  const cv::Rect box =
+      cv::Rect(tight.x - margin, tight.y - margin, tight.width + 2 * margin, tight.height + 2 * margin) &
+      cv::Rect({0, 0}, color.size());
   cv::Mat inpainted;
-  cv::inpaint(color(box), missing(box), inpainted, params.inpaint_px, cv::INPAINT_TELEA);
-  inpainted.copyTo(color(box), missing(box));
+  cv::inpaint(color(box), inside(box) == 0, inpainted, params.inpaint_px, cv::INPAINT_TELEA);
+  inpainted.copyTo(color(box), hole(box));
   return color;
 }
 

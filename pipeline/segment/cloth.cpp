@@ -8,6 +8,7 @@
 
 #include "pipeline/common/color_histogram.h"
 #include "pipeline/common/graph_cut.h"
+#include "pipeline/segment/color_change.h"
 #include "pipeline/segment/view_models.h"
 
 namespace dressform {
@@ -31,7 +32,7 @@ float shape_nats(float offset_mm, const ClothParams& params) {
 float change_nats(float units, const ClothParams& params) {
   if (std::isnan(units)) return 0;
   const auto most = static_cast<float>(params.change_nats);
-  return std::clamp(0.7f * (units - kUnchanged), -0.7f * most, most);
+  return std::clamp(0.7f * (units - kShadowUnits), -0.7f * most, most);
 }
 
 // Places that clothes leave bare.
@@ -68,7 +69,7 @@ std::vector<ColorHistogram> skin_models(const std::vector<ViewEvidence>& views, 
     masks.push_back(views[k].box.empty() ? cv::Mat() : naked ? eroded(views[k].naked_body, 2) : skin[k]);
     images.push_back(naked ? views[k].naked_lab : views[k].lab);
   }
-  return shared_models(masks, images);
+  return shared_models(masks, images, true);
 }
 
 // First guess: what clearly stands off the body.
@@ -80,7 +81,7 @@ void first_guess(const ViewEvidence& view, cv::Mat& skin, cv::Mat& cloth) {
     for (int u = 0; u < skin.cols; ++u) {
       if (!view.body.at<uchar>(v, u)) continue;
       const float offset = view.offset_mm.at<float>(v, u), change = view.change.at<float>(v, u);
-      const bool unchanged = change < kUnchanged, head = part_nats(view, v, u) < 0;
+      const bool unchanged = change < kShadowUnits, head = part_nats(view, v, u) < 0;
       if (offset > kSureCloth_mm && !unchanged && !head) cloth.at<uchar>(v, u) = 255;
       if (offset < kSureSkin_mm && (unchanged || head)) skin.at<uchar>(v, u) = 255;
     }

@@ -7,10 +7,12 @@
 #include <vector>
 
 namespace dressform {
+
+const float kShadowUnits = 3;
+
 namespace {
 
-constexpr float kDarkestShadow = 0.55f, kBrightest = 1.08f;  // gains that shadows and reflections may have
-constexpr float kShadowPrice = 0.35f;                        // of a change that is only a shadow
+constexpr float kDarkestShadow = 0.25f, kBrightest = 1.1f;  // gains that shadows and reflections may have
 
 float median(std::vector<float>& values, float otherwise) {
   if (values.size() < 100) return otherwise;
@@ -52,13 +54,14 @@ float difference(const cv::Vec3f& a, const cv::Vec3f& b, float k) {
   return std::max({std::abs(a[0] - k * b[0]), std::abs(a[1] - k * b[1]), std::abs(a[2] - k * b[2])});
 }
 
-float change_of(const cv::Vec3f& dressed, const cv::Vec3f& naked) {
+float change_of(const cv::Vec3f& dressed, const cv::Vec3f& naked, float noise) {
   const float plain = difference(dressed, naked, 1);
   const float norm = naked.dot(naked);
   if (!(norm > 1)) return plain;
   const float shadow = std::clamp(dressed.dot(naked) / norm, kDarkestShadow, kBrightest);
   const float shaded = difference(dressed, naked, shadow);
-  return std::min(plain, shaded + kShadowPrice * (plain - shaded));
+  // A mere shadow is neither the same nor a change.
+  return std::min(plain, std::max(shaded, kShadowUnits * noise));
 }
 
 }  // namespace
@@ -80,7 +83,7 @@ ColorChange color_change(const cv::Mat& dressed_bgr, const cv::Mat& naked_bgr, c
         b[k] *= match.gain[k];
         result.matched_naked.at<cv::Vec3b>(y, x)[k] = cv::saturate_cast<uchar>(match.gain[k] * raw[k]);
       }
-      result.units.at<float>(y, x) = change_of(a, b) / match.noise;
+      result.units.at<float>(y, x) = change_of(a, b, match.noise) / match.noise;
     }
   }
   return result;

@@ -3,8 +3,11 @@
 
 namespace dressform {
 
+// Change, in units of the noise, that a place which merely lies in shadow counts as: neither unchanged nor changed.
+extern const float kShadowUnits;
+
 struct ColorChange {
-  cv::Mat units;          // float32, size of the box: change in units of the noise, a shadow counting little
+  cv::Mat units;          // float32, size of the box: change in units of the noise
   cv::Mat matched_naked;  // 8-bit BGR, size of the box: the naked shot at the dressed shot's exposure
 };
 

@@ -3,16 +3,26 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 namespace dressform {
 namespace {
 
-constexpr double kPairShare = 0.15;  // of the other views' colours in a view's model
+constexpr double kPairShare = 0.15;                          // of the other views' colours in a view's model
+constexpr std::array<float, 3> kShades{0.75f, 0.55f, 0.4f};  // of a colour's 8-bit values where little light falls
+constexpr float kShadeShare = 0.1f;
+
+// A Lab colour (8-bit) in shadow: the 8-bit values shrink together, and so nearly do lightness and chroma.
+cv::Vec3b shaded(const cv::Vec3b& lab, float gain) {
+  return {cv::saturate_cast<uchar>(gain * lab[0]), cv::saturate_cast<uchar>(128 + gain * (lab[1] - 128)),
+          cv::saturate_cast<uchar>(128 + gain * (lab[2] - 128))};
+}
 
 }  // namespace
 
-std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images) {
+std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images,
+                                          bool shades) {
   std::vector<ColorHistogram> models(masks.size());
   std::vector<double> counts;
   double all = 0;
@@ -25,9 +35,15 @@ std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, con
       if (counts[other] == 0 || (other != k && all <= counts[k])) continue;
       const double pooled = counts[k] > 0 ? kPairShare * counts[k] / (all - counts[k]) : 1;
       const float weight = other == k ? 1.f : static_cast<float>(pooled);
-      for (int v = 0; v < masks[other].rows; ++v)
-        for (int u = 0; u < masks[other].cols; ++u)
-          if (masks[other].at<uchar>(v, u)) models[k].add(images[other].at<cv::Vec3b>(v, u), weight);
+      for (int v = 0; v < masks[other].rows; ++v) {
+        for (int u = 0; u < masks[other].cols; ++u) {
+          if (!masks[other].at<uchar>(v, u)) continue;
+          const auto& lab = images[other].at<cv::Vec3b>(v, u);
+          models[k].add(lab, weight);
+          for (std::size_t s = 0; shades && s < kShades.size(); ++s)
+            models[k].add(shaded(lab, kShades[s]), kShadeShare * weight);
+        }
+      }
     }
     models[k].finish();
   });

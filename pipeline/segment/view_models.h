@@ -8,7 +8,9 @@ namespace dressform {
 
 // One colour model a view, learnt from images[k] where masks[k] != 0 (empty = nothing), with a share of what the other
 // views learnt: exposure and print differ between views, but a view that saw little leans on the others.
-std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images);
+// shades: the same colours in shadow are added with a small weight.
+std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images,
+                                          bool shades = false);
 
 // The views' smoothed_lab images.
 std::vector<cv::Mat> lab_images(const std::vector<ViewEvidence>& views);
