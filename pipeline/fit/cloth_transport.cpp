@@ -107,12 +107,12 @@ void diffuse(const Mesh& garment, const std::vector<double>& confidence, int rou
 
 }  // namespace
 
-std::vector<Vector3d> transported(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp,
-                                  const MeshQuery& user_surface, const ClothTransportParams& params) {
+Transported transported(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp,
+                        const MeshQuery& user_surface, const ClothTransportParams& params) {
   if (garment.vertices.empty()) return {};
   const Anchors anchors = find_anchors(garment, clothed_body(garment, naked));
   std::vector<Vector3d> cloth = blended(warp, garment.vertices, anchors.arm);
-  if (params.keep_offset <= 0) return cloth;
+  if (params.keep_offset <= 0) return {cloth, anchors.arm};
   const std::vector<Vector3d> body = blended(warp, anchors.body, anchors.arm);
   std::vector<Vector3d> change(cloth.size());
   std::vector<double> confidence(cloth.size());
@@ -123,7 +123,7 @@ std::vector<Vector3d> transported(const Mesh& garment, const StandingBody& naked
   });
   diffuse(garment, confidence, params.diffusion_rounds, change);
   for (std::size_t v = 0; v < cloth.size(); ++v) cloth[v] += params.keep_offset * change[v];
-  return cloth;
+  return {cloth, anchors.arm};
 }
 
 }  // namespace dressform

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/fit/ease.h"
+
 namespace dressform {
 namespace {
 
@@ -63,14 +65,6 @@ Ring trunk_ring(const Side& side, double y, int angles, bool below_armpit) {
     for (auto& hit : result)
       if (hit && on_arm(side.body, *hit)) hit.reset();
   return result;
-}
-
-// Height on either body at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 armpit, 4 neck, 5 top of the head.
-double trunk_height(const StandingBody& body, double t) {
-  const double marks[] = {body.crotch_y, body.hip_y,  body.waist_y,
-                          body.armpit_y, body.neck_y, body.limbs.floor_y + body.stature};
-  const int i = std::clamp(static_cast<int>(t), 0, 4);
-  return marks[i] + (t - i) * (marks[i + 1] - marks[i]);
 }
 
 void add_trunk(const Side& naked, const Side& user, const ControlPairParams& params, std::vector<ControlPair>& pairs) {

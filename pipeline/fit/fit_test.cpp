@@ -1,6 +1,7 @@
 #include "pipeline/fit/fit.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 
@@ -129,8 +130,16 @@ TEST(Fit, KeepsTheEaseOnAMuchWiderBody) {
   const double grown = mean_radius(result.garments.at("top").mesh, 1.05, 1.12) - 0.15 * 1.25;
   EXPECT_NEAR(2 * M_PI * grown, 2 * M_PI * 0.025, 0.012);
   // Without it the map scales the offset too.
-  const auto scaled = Fit::at("rbf").run(input.naked, input.user, input.clothes, {{"keep_offset", 0.0}}, 1);
+  const auto scaled =
+      Fit::at("rbf").run(input.naked, input.user, input.clothes, {{"keep_offset", 0.0}, {"ease_rounds", 0}}, 1);
   EXPECT_GT(mean_radius(scaled.garments.at("top").mesh, 1.05, 1.12) - 0.15 * 1.25, grown);
+}
+
+TEST(Fit, TheNumberOfThreadsDoesNotMatter) {
+  const Try input = make_try({1.65, 1.1, 18, 2.0});
+  const auto both = to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1));
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(both, to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1)));
 }
 
 TEST(Fit, UniformScalesByTheShoulderHeight) {

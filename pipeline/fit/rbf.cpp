@@ -5,6 +5,7 @@
 
 #include "pipeline/fit/body_warp.h"
 #include "pipeline/fit/cloth_transport.h"
+#include "pipeline/fit/ease.h"
 #include "pipeline/fit/fit.h"
 #include "pipeline/fit/fit_result.h"
 #include "pipeline/fit/standing_body.h"
@@ -18,6 +19,7 @@ struct RbfParams {
   int rounds = 2;
   double snap_spacing_m = 0.06;
   double keep_offset = 1;
+  int ease_rounds = 2;
 };
 template <class V>
 void fields(V& v, RbfParams& p) {
@@ -27,6 +29,7 @@ void fields(V& v, RbfParams& p) {
   v("snap_spacing_m", p.snap_spacing_m, 0.03, 0.2, "m", "between the body's points that are snapped");
   v("keep_offset", p.keep_offset, 0.0, 1.0, "",
     "0: the map alone moves the cloth; 1: cloth keeps its distance from the body");
+  v("ease_rounds", p.ease_rounds, 0, 10, "", "of measuring girths round the trunk and moving cloth to keep the ease");
 }
 
 // The naked model's frame turned and shifted about the vertical to face as the user does and stand where the user does.
@@ -52,6 +55,19 @@ BodyWarpParams warp_params(const RbfParams& params) {
   return result;
 }
 
+Mesh fitted_mesh(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp, const StandingBody& user,
+                 const MeshQuery& user_surface, const RbfParams& params) {
+  ClothTransportParams transport;
+  transport.keep_offset = params.keep_offset;
+  const Transported moved = transported(garment, naked, warp, user_surface, transport);
+  Mesh result{moved.vertices, garment.triangles};
+  std::vector<double> trunk(moved.sleeve.size());
+  for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = 1 - moved.sleeve[v];
+  for (int round = 0; round < params.ease_rounds; ++round)
+    result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01);
+  return result;
+}
+
 FittedGarments rbf(const BodyModel& naked_model, const BodyModel& user_model, const TexturedGarments& clothes,
                    const RbfParams& params) {
   require_bodies(naked_model, user_model, "fit.rbf");
@@ -64,13 +80,11 @@ FittedGarments rbf(const BodyModel& naked_model, const BodyModel& user_model, co
 
   const MeshQuery naked_surface(naked.mesh), user_surface(user.mesh);
   const BodyWarp warp = warp_body(naked, naked_surface, user, user_surface, warp_params(params));
-  ClothTransportParams transport;
-  transport.keep_offset = params.keep_offset;
 
   FittedGarments result;
   for (const auto& [name, garment] : clothes.garments) {
     const Mesh turned = transformed(garment.mesh, motion);
-    const Mesh fitted{transported(turned, naked, warp, user_surface, transport), turned.triangles};
+    const Mesh fitted = fitted_mesh(turned, naked, warp, user, user_surface, params);
     result.foldovers += count_foldovers(turned, fitted);
     result.garments[name] = with_vertices(garment, fitted.vertices);
   }
