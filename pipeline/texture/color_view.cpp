@@ -39,7 +39,7 @@ void distrust_hidden(ColorView& view, const cv::Mat& garment_m, double gap_m) {
     for (int x = 0; x < view.trust.cols; ++x) {
       float& trust = view.trust.at<float>(y, x);
       const float z = garment_m.at<float>(y, x);
-      if (trust > kFilledTrust && z < kFar && z > view.occluder_m.at<float>(y, x) + gap_m) trust = 0;
+      if (trust > view.filled_trust && z < kFar && z > view.occluder_m.at<float>(y, x) + gap_m) trust = 0;
     }
 }
 
@@ -48,19 +48,19 @@ cv::Mat disc(double radius_px) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size});
 }
 
-// 0 outside the eroded mask, rising to 1 inside; what was filled in keeps a small trust.
-cv::Mat trust_of(const cv::Mat& mask, double erode_px, double feather_px) {
+// 0 outside the eroded mask, rising to 1 inside; what was filled in is trusted as far as asked.
+cv::Mat trust_of(const cv::Mat& mask, double erode_px, double feather_px, float filled_trust) {
   cv::Mat padded, worn, seen, distance;
   cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));  // what is cut off ends there
-  worn = padded > 0;
   seen = padded == 255;
+  worn = filled_trust > 0 ? cv::Mat(padded > 0) : seen;  // else colours end where the arm begins
   cv::distanceTransform(worn, distance, cv::DIST_L2, cv::DIST_MASK_5);
   cv::Mat trust(mask.size(), CV_32FC1);
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x) {
       const double inside = distance.at<float>(y + 1, x + 1) - erode_px;
       const double rise = std::clamp(inside / std::max(feather_px, 1e-6), 0.0, 1.0);
-      trust.at<float>(y, x) = static_cast<float>(rise) * (seen.at<uchar>(y + 1, x + 1) ? 1.f : kFilledTrust);
+      trust.at<float>(y, x) = static_cast<float>(rise) * (seen.at<uchar>(y + 1, x + 1) ? 1.f : filled_trust);
     }
   return trust;
 }
@@ -107,8 +107,9 @@ void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment
   view.origin = Vector2d(crop.x, crop.y);
   filled.color(crop).convertTo(view.color, CV_32FC3);
   const double pixels_per_m = view.camera.fx / garment_distance(view, garment);
-  view.trust =
-      trust_of(filled.mask(crop), std::max(1.0, params.erode_m * pixels_per_m), params.feather_m * pixels_per_m);
+  view.filled_trust = static_cast<float>(params.filled_trust);
+  view.trust = trust_of(filled.mask(crop), std::max(1.0, params.erode_m * pixels_per_m),
+                        params.feather_m * pixels_per_m, view.filled_trust);
   view.color = denoised(view.color, params.denoise * noise_levels(filled.color, brightness(view.color, view.trust)));
   cv::erode(depth_of(view, crop, scenery), view.occluder_m, disc(std::max(1.0, params.occluder_m * pixels_per_m)));
   distrust_hidden(view, depth_of(view, crop, {&garment}), params.occluder_gap_m);
@@ -130,7 +131,7 @@ float ColorView::trust_at(const Vector2d& pixel, double z_m, double occluder_gap
   const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
   if (x < 0 || y < 0 || x >= trust.cols || y >= trust.rows) return 0;
   const float here = linear1(trust, pixel);
-  if (here <= kFilledTrust) return here;  // filled in: an arm is meant to be in front
+  if (here <= filled_trust) return here;  // filled in: an arm is meant to be in front
   return z_m > occluder_m.at<float>(y, x) + occluder_gap_m ? 0.f : here;
 }
 

@@ -14,6 +14,7 @@ struct ViewParams {
   double occluder_m = 0.005;     // half width of the window in which an occluder is looked for
   double occluder_gap_m = 0.03;  // how much nearer an occluder must be
   double band_m = 0.018;         // standard deviation of the blur that divides the bands, on the garment
+  double filled_trust = 0;       // in colours that fill made up, against 1 in those that were seen
   double denoise = 4;            // range of the bilateral filter over the noise found in the image; 0: none
 };
 
@@ -26,15 +27,16 @@ struct ColorView {
   Vector2d origin;               // pixel of the crop's first pixel
   cv::Mat color;                 // float32 x 3, BGR, sRGB levels 0-255
   cv::Mat low;                   // float32 x 3, the colour blurred within the mask
-  cv::Mat trust;                 // float32: 1 well inside what was seen, kFilledTrust where filled in, 0 outside
+  cv::Mat trust;                 // float32: 1 well inside what was seen, less where filled in, 0 outside
   cv::Mat occluder_m;            // float32: z of the nearest surface within the window
+
+  float filled_trust = 0;  // trust up to this is in filled-in pixels
 
   // Raw pixel of the crop, or nothing behind the camera.
   bool project(const Vector3d& point, Vector2d& pixel, double& z_m) const;
   // Trust at a pixel of the crop and depth, 0 where hidden. Linear between pixels.
   float trust_at(const Vector2d& pixel, double z_m, double occluder_gap_m) const;
 };
-constexpr float kFilledTrust = 0.04f;
 
 // The views of one garment, in the order of the sensors of the session; views that are not registered, whose sensor
 // has no colour camera or whose mask is empty are left out. `scenery`: all surfaces that may hide the garment,

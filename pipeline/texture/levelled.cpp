@@ -22,6 +22,8 @@ void fields(V& v, LevelledParams& p) {
     "how near to the outline of something in front colours are not used");
   v("occluder_gap_m", p.view.occluder_gap_m, 0.005, 0.3, "m", "how much nearer a surface must be to count as in front");
   v("band_m", p.view.band_m, 0.002, 0.2, "m", "size of detail that divides the coarse from the fine band");
+  v("filled_trust", p.view.filled_trust, 0.0, 1.0, "",
+    "trust in colours that fill made up; 0: other views or the surface around");
   v("denoise", p.view.denoise, 0.0, 50.0, "",
     "range of the bilateral filter over the noise found in the image; 0: none");
   v("gain_least_facing", p.gain.least_facing, 0.05, 0.95, "",

@@ -11,7 +11,7 @@
 namespace dressform {
 namespace {
 
-constexpr float kSomeTrust = 0.5f * kFilledTrust;  // from here on a colour counts in full
+constexpr float kSomeTrust = 0.02f;         // from here on a colour counts in full
 constexpr float kFallback = 1e-3f;          // weight of views that were not chosen, for where the chosen one fails
 const cv::Vec3f kUncolored(128, 128, 128);  // where no view colours anything
 

@@ -170,7 +170,7 @@ TEST(TextureLevelled, OccluderIsKeptOutEvenWhereTheMaskIsWrong) {
   });
 }
 
-TEST(TextureLevelled, FilledInColoursAreUsedWhereNothingElseIs) {
+TEST(TextureLevelled, FilledInColoursAreUsedWhereNothingElseIsIfAsked) {
   TubeScene scene = tube_scene(plain, 0.25);
   FilledGarment& front = scene.filled.garments["top"]["k1"];
   cv::Mat seen = front.mask > 0;
@@ -178,10 +178,22 @@ TEST(TextureLevelled, FilledInColoursAreUsedWhereNothingElseIs) {
   front.color.setTo(cv::Scalar(40, 40, 40), seen);
   for (const char* name : {"k2", "k3", "k4"}) scene.registration.model_from_sensor.erase(name);
   double nearest = 255;
-  for_each_sample(run(scene).garments.at("top"), [&](double turn, double, const cv::Vec3b& found) {
-    if (std::abs(turn) < 0.5) nearest = std::min<double>(nearest, std::abs(found[1] - 40.0));
-  });
+  for_each_sample(run(scene, "levelled", {{"filled_trust", 0.05}}).garments.at("top"),
+                  [&](double turn, double, const cv::Vec3b& found) {
+                    if (std::abs(turn) < 0.5) nearest = std::min<double>(nearest, std::abs(found[1] - 40.0));
+                  });
   EXPECT_LT(nearest, 3);
+}
+
+TEST(TextureLevelled, FilledInColoursAreNotTrustedUnasked) {
+  TubeScene scene = tube_scene(plain, 0.4);
+  FilledGarment& front = scene.filled.garments["top"]["k1"];
+  const cv::Rect strip(front.mask.cols / 2 - 12, 0, 24, front.mask.rows);  // as behind an arm, with its colour
+  cv::Mat seen = front.mask(strip) > 0;
+  front.mask(strip).setTo(128, seen);
+  front.color(strip).setTo(cv::Scalar(130, 160, 230));
+  for_each_sample(run(scene).garments.at("top"),
+                  [&](double, double, const cv::Vec3b& found) { ASSERT_NEAR(found[2], 150, 4); });
 }
 
 TEST(TextureLevelled, AMissingViewLeavesAPartUnseenWithTheColourAround) {
