@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/surface/lattice.h"
+#include "pipeline/common/lattice.h"
 #include "scenes/error.h"
 
 namespace dressform {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/common/lattice.h"
 #include "pipeline/common/mesh_query.h"
 #include "pipeline/fill/fill.h"
-#include "pipeline/surface/lattice.h"
 #include "scenes/random.h"
 
 namespace dressform::figure {

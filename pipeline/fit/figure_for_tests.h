@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "pipeline/surface/lattice.h"
+#include "pipeline/common/lattice.h"
 #include "scenes/mesh.h"
 
 namespace dressform {

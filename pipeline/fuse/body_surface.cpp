@@ -9,9 +9,10 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/common/lattice.h"
 #include "pipeline/common/mesh_query.h"
+#include "pipeline/common/mesh_tidy.h"
 #include "pipeline/common/poisson.h"
-#include "pipeline/surface/lattice.h"
 
 namespace dressform {
 namespace {
@@ -125,13 +126,13 @@ std::vector<float> distance_field(const Mesh& mesh, const Lattice& lattice) {
 
 // The solid without handles and hollows nearest to what the mesh encloses.
 Mesh ball_like(const Mesh& mesh) {
-  constexpr double kStep = 0.007;
+  constexpr double kStep = 0.007, kShortestEdge = 0.007;
   Vector3d low = mesh.vertices.front(), high = low;
   for (const auto& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Lattice lattice = make_lattice(low, high, 6 * kStep, kStep);
   BallReport report;
   const auto field = ball_field(lattice, distance_field(mesh, lattice), report);
-  return field.empty() ? Mesh{} : lattice_surface(lattice, field);
+  return field.empty() ? Mesh{} : tidied(lattice_surface(lattice, field), kShortestEdge);
 }
 
 }  // namespace

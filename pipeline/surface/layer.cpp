@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/common/lattice.h"
+#include "pipeline/common/mesh_tidy.h"
 #include "pipeline/surface/covered_body.h"
 #include "pipeline/surface/garment_cloud.h"
-#include "pipeline/surface/lattice.h"
-#include "pipeline/surface/mesh_tidy.h"
 #include "pipeline/surface/offset_field.h"
 #include "pipeline/surface/surface.h"
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/common/lattice.h"
 #include "pipeline/surface/garment_cloud.h"
-#include "pipeline/surface/lattice.h"
 
 namespace dressform {
 

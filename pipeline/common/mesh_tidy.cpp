@@ -1,4 +1,4 @@
-#include "pipeline/surface/mesh_tidy.h"
+#include "pipeline/common/mesh_tidy.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,4 +1,4 @@
-#include "pipeline/surface/lattice.h"
+#include "pipeline/common/lattice.h"
 
 #include <gtest/gtest.h>
 
