@@ -12,9 +12,10 @@
 namespace dressform {
 namespace {
 
-constexpr int kBlocks = 12;      // colour models along the body's height
-constexpr float kMostNats = 4;   // of one cue
-constexpr float kColorNats = 2;  // of the colour models, which confuse skin and a wall alike
+constexpr int kBlocks = 12;           // colour models along the body's height
+constexpr double kLeastPiece = 0.01;  // of the mask's area
+constexpr float kMostNats = 4;        // of one cue
+constexpr float kColorNats = 2;       // of the colour models, which confuse skin and a wall alike
 
 cv::Mat ellipse(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
@@ -106,6 +107,19 @@ cv::Mat color_cost(const cv::Mat& lab, const LocalModels& models, const cv::Mat&
   return cost;
 }
 
+// Drops pieces that are a small part of the whole: bits of stand and furniture beside the feet.
+void keep_large_pieces(cv::Mat& mask) {
+  cv::Mat labels, stats, centers;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centers, 8);
+  const double least = kLeastPiece * cv::countNonZero(mask);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      const int label = labels.at<int>(y, x);
+      if (label > 0 && label < count && stats.at<int>(label, cv::CC_STAT_AREA) < least) mask.at<uchar>(y, x) = 0;
+    }
+  }
+}
+
 cv::Rect grown_box(const cv::Mat& mask, int margin) {
   const cv::Rect box = cv::boundingRect(mask);
   return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
@@ -144,6 +158,7 @@ cv::Mat color_outline(const cv::Mat& bgr, const cv::Mat& depth_mm, const cv::Mat
   cv::Mat closed;
   cv::morphologyEx(cut, closed, cv::MORPH_CLOSE, ellipse(band));
   closed.copyTo(cut, (known == 0) & (cost < kMostNats / 2));
+  keep_large_pieces(cut);
   cut.copyTo(result(box));
   return result;
 }

@@ -88,6 +88,32 @@ void first_guess(const ViewEvidence& view, cv::Mat& skin, cv::Mat& cloth) {
   }
 }
 
+// Skin that cloth encloses, on trunk or legs: a print of the skin's colour. Arms before the trunk stay.
+void close_islands(const ViewEvidence& view, double island_mm2, cv::Mat& cloth) {
+  const cv::Mat skin = view.body & ~cloth;
+  cv::Mat labels, near_room;
+  const int count = cv::connectedComponents(skin, labels, 4);
+  std::vector<int> size(count, 0), arm(count, 0), open(count, 0);
+  cv::dilate(view.body == 0, near_room, cv::Mat());
+  for (int y = 0; y < skin.rows; ++y) {
+    for (int x = 0; x < skin.cols; ++x) {
+      const int label = labels.at<int>(y, x);
+      const uchar code = view.part.at<uchar>(y, x);
+      ++size[label];
+      arm[label] += code == static_cast<uchar>(BodyPart::left_arm) || code == static_cast<uchar>(BodyPart::right_arm);
+      open[label] += near_room.at<uchar>(y, x) != 0;
+    }
+  }
+  const double px_mm = pixel_size_mm(view);
+  for (int y = 0; y < skin.rows; ++y) {
+    for (int x = 0; x < skin.cols; ++x) {
+      const int label = labels.at<int>(y, x);
+      if (label > 0 && open[label] == 0 && 2 * arm[label] < size[label] && size[label] * px_mm * px_mm < island_mm2)
+        cloth.at<uchar>(y, x) = 255;
+    }
+  }
+}
+
 cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHistogram& skin,
                  const ColorHistogram& cloth, const ClothParams& params) {
   const auto most = static_cast<float>(params.color_nats);
@@ -110,6 +136,7 @@ cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHist
   padded.copyTo(initial, view.body);
   cv::Mat cut = binary_cut(view.lab, cost, active, initial, smoothness) & view.body;
   remove_specks(cut, view.body, params.speck_mm2, pixel_size_mm(view));
+  close_islands(view, params.island_mm2, cut);
   return cut;
 }
 

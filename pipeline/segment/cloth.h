@@ -13,6 +13,7 @@ struct ClothParams {
   double color_nats = 3;       // most that the colour of one pixel may say
   double smoothness = 8;       // of the cut, nats
   double speck_mm2 = 500;      // smaller pieces of skin or cloth are turned over
+  double island_mm2 = 3000;    // larger enclosed pieces of skin on trunk and legs are believed
   int rounds = 2;              // of learning colours and cutting
 };
 
