@@ -14,7 +14,8 @@ namespace {
 
 using Corners = std::array<Vector2d, 3>;
 
-constexpr int kAxes = 6;              // +x, -x, +y, -y, +z, -z
+constexpr int kAxes = 6;  // +x, -x, +y, -y, +z, -z
+constexpr double kSmallestScale = 0.01;
 constexpr double kLeastFacing = 0.1;  // more oblique triangles are laid out along an axis
 
 // Twice the area of a triangle in a picture; positive where it is counter-clockwise as displayed (y is down).
@@ -194,7 +195,8 @@ Atlas make_atlas(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<
     for (const Chart& chart : charts) boxes.push_back(chart.size);
     const Packing packing = pack(boxes);
     const int largest = std::max(packing.size.width, packing.size.height);
-    if (largest > params.largest_px) {
+    // Gutters do not shrink with the charts: so many charts that they alone fill the texture make it larger.
+    if (largest > params.largest_px && atlas.texels_per_pixel > kSmallestScale) {
       atlas.texels_per_pixel *= 0.97 * params.largest_px / largest;
       continue;
     }

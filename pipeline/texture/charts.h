@@ -12,7 +12,7 @@ namespace dressform {
 struct AtlasParams {
   double texels_per_pixel = 1;  // of the colour image, along each axis
   int gutter_px = 4;            // between charts and to the edge
-  int largest_px = 4096;        // more charts than fit are made smaller
+  int largest_px = 4096;        // charts are made smaller until they fit
 };
 
 // Where every triangle lies in the texture: texels with centres at integers, v down. No two triangles overlap and none

@@ -66,5 +66,21 @@ TEST(Charts, SurfaceFoldedOverItselfIsCutApart) {
   expect_no_overlap(atlas);
 }
 
+TEST(Charts, GuttersThatFillTheTextureAloneEndTheShrinking) {
+  Mesh mesh;  // a hundred loose triangles
+  for (int i = 0; i < 100; ++i) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(0.01, 0, 0), Vector3d(0, 0.01, 0)})
+      mesh.vertices.push_back(corner + Vector3d(0.02 * i, 0, 0));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  AtlasParams params;
+  params.largest_px = 64;
+  const Labels labels{std::vector<int>(mesh.triangles.size(), -1), std::vector<bool>(mesh.triangles.size(), false)};
+  const Atlas atlas = make_atlas(mesh, SurfaceGraph(mesh), {}, labels, params);
+  EXPECT_EQ(atlas.charts, 100);
+  EXPECT_GT(atlas.size.width, 64);
+}
+
 }  // namespace
 }  // namespace dressform
