@@ -14,6 +14,7 @@ constexpr int kBins = 180;  // of 2 degrees
 
 // Crotch height over stature, mean .482 and correlation .86 in ANSUR II: beyond these bounds it is not the crotch.
 constexpr double kLowestCrotch = 0.435, kHighestCrotch = 0.53, kMeanCrotch = 0.475;
+constexpr double kLowestFork = 0.30;  // to which thighs may be one piece
 constexpr double kLowestArmpit = 0.69, kHighestArmpit = 0.80;
 
 double mean_girth_near(const StandingBody& body, double y) {
@@ -188,7 +189,7 @@ StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front
   body.waist_y = find_waist(body);
   body.hip_y = find_hip(body);
   // Hips and waist are told from where the legs part; cloth between thighs that are one piece can only be below it.
-  body.crotch_y = std::min(body.crotch_y, std::max(body.limbs.crotch_y, floor + kLowestCrotch * body.stature));
+  body.crotch_y = std::min(body.crotch_y, std::max(body.limbs.crotch_y, floor + kLowestFork * body.stature));
   int count = 0;
   for (double y = body.crotch_y; y < body.armpit_y; y += body.sections.step)
     if (const SectionLoop* loop = body.trunk_loop(y)) body.axis += loop->centroid, ++count;
