@@ -34,6 +34,8 @@ void fields(V& v, LimbSplineParams& p) {
   v("shortest_edge_m", p.shortest_edge_m, 0.0005, 0.02, "m", "shorter edges that the cut leaves are collapsed");
 }
 
+constexpr double kEarlyEnd_m = 0.03;  // points that end this much before the others of a rim were not seen further
+
 struct Scene {
   const CaptureSession& session;
   const Segmentation& segmentation;
@@ -75,12 +77,21 @@ std::vector<RimSample> support_ends(const PointCloud& support, const Opening& op
     sectors[std::clamp(sector, 0, kSectors - 1)].push_back(opening.along(p));
   }
   std::vector<RimSample> samples;
+  std::vector<double> ends;
   for (int i = 0; i < kSectors; ++i) {
     auto& values = sectors[i];
     if (values.size() < 5) continue;
-    std::sort(values.begin(), values.end());
-    samples.push_back({-M_PI + 2 * M_PI * (i + 0.5) / kSectors, values[values.size() - 1 - values.size() / 50], 1});
+    std::nth_element(values.begin(), values.end() - 3, values.end());  // but for two strays
+    samples.push_back({-M_PI + 2 * M_PI * (i + 0.5) / kSectors, *(values.end() - 3), 1});
+    ends.push_back(samples.back().along);
   }
+  if (ends.empty()) return samples;
+  // Sectors that no view faces end early: they say nothing.
+  std::nth_element(ends.begin(), ends.begin() + ends.size() * 2 / 3, ends.end());
+  const double typical = ends[ends.size() * 2 / 3];
+  samples.erase(std::remove_if(samples.begin(), samples.end(),
+                               [&](const RimSample& s) { return s.along < typical - kEarlyEnd_m; }),
+                samples.end());
   return samples;
 }
 
@@ -126,16 +137,31 @@ PlacedRim place_rim(const Opening& opening, const std::vector<RimSample>& edges,
   return rim;
 }
 
+// How much nearer each vertex is to one arm than to the rest of the body, halved: beyond a cuff, only what is nearer to
+// the arm comes off, also where the sleeve touches the trunk.
+std::vector<double> nearer_to_arm(const Opening& opening, const Mesh& mesh, const Scene& scene) {
+  std::vector<double> result(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  if (opening.name != "left_cuff" && opening.name != "right_cuff") return result;
+  const BodyPart part = opening.name == "left_cuff" ? BodyPart::left_arm : BodyPart::right_arm;
+  Mesh arm{scene.naked.mesh().vertices, {}}, rest = arm;
+  for (std::size_t i = 0; i < scene.naked.mesh().triangles.size(); ++i)
+    (scene.limbs.triangle_parts[i] == part ? arm : rest).triangles.push_back(scene.naked.mesh().triangles[i]);
+  const MeshQuery to_arm(compacted(arm)), to_rest(compacted(rest));
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = (to_rest.closest(mesh.vertices[i]).distance - to_arm.closest(mesh.vertices[i]).distance) / 2;
+  return result;
+}
+
 // The vertex in the middle of what lies beyond the rim: the farthest along, among those over the right part of the
 // body.
 Cap make_cap(const Opening& opening, const RimCurve& curve, const Mesh& mesh, const std::vector<BodyPart>& parts,
-             const BodyLimbs& limbs) {
+             const std::vector<double>& nearer, const BodyLimbs& limbs) {
   Cap cap;
   double farthest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vector3d& v = mesh.vertices[i];
     const double along = opening.along(v);
-    cap.beyond.push_back(along - curve.at(opening.angle(v)));
+    cap.beyond.push_back(std::min(along - curve.at(opening.angle(v)), nearer[i]));
     if (!belongs(opening, parts[i], v, limbs) || along <= farthest) continue;
     farthest = along;
     cap.pole = static_cast<int>(i);
@@ -148,7 +174,8 @@ struct Work {
   std::string kind;
   std::vector<Opening> openings;
   std::map<std::string, std::vector<RimSample>> edges;
-  std::vector<BodyPart> parts;  // below the vertices
+  std::vector<BodyPart> parts;                        // below the vertices
+  std::map<std::string, std::vector<double>> nearer;  // nearer_to_arm of every opening
 };
 
 // The loops of the open mesh, each named after the opening whose cut is nearest.
@@ -189,7 +216,7 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
     const PlacedRim rim = place_rim(opening, samples == work.edges.end() ? std::vector<RimSample>{} : samples->second,
                                     closed, scene, params);
     if (rim.curve.knots.empty()) return {};
-    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, scene.limbs));
+    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, work.nearer.at(opening.name), scene.limbs));
     observed.push_back(rim.observed);
   }
   const CutResult cut = cut_caps(closed.mesh, caps);
@@ -209,11 +236,12 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
   Work work;
   const auto kind = scene.segmentation.kinds.find(name);
   work.kind = kind != scene.segmentation.kinds.end() ? kind->second : name == "top" ? "shirt" : "skirt";
-  work.openings = garment_openings(work.kind, closed.mesh, scene.limbs);
+  work.parts = parts_below(closed.mesh, scene);
+  work.openings = garment_openings(work.kind, closed.mesh, work.parts, scene.limbs);
   if (work.openings.empty()) return {};
   work.edges = rim_samples(scene.segmentation, name == "top" ? Label::top : Label::bottom, scene.session, scene.views,
                            MeshQuery(closed.mesh), scene.naked, scene.limbs, work.openings, params.edges);
-  work.parts = parts_below(closed.mesh, scene);
+  for (const Opening& opening : work.openings) work.nearer[opening.name] = nearer_to_arm(opening, closed.mesh, scene);
   for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20) {  // stiffer, should the soft rims cross
     auto garment = cut_open(closed, work, scene, params);
     if (garment) return garment;

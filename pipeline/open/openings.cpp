@@ -7,6 +7,7 @@
 namespace dressform {
 namespace {
 
+constexpr double kEndToRim_m = 0.05;   // the closed surface runs on this far beyond a rim
 constexpr double kBelowNeck_m = 0.20;  // the neck's polar centre lies this far below the closed surface's end
 
 Opening cylinder(const std::string& name, const Vector3d& centre, const Vector3d& axis, const Vector3d& front) {
@@ -29,6 +30,23 @@ Vector3d middle(const Mesh& mesh, double low, double high, const Vector3d& other
   return least.x() > most.x() ? otherwise : Vector3d((least + most) / 2);
 }
 
+// The opening of a sleeve or leg: the limb's axis, moved to pass through the limb's middle where the cloth ends,
+// because limbs bend and the axis has to pass through the rim.
+Opening of_limb(const std::string& name, const Limb& limb, BodyPart part, const Mesh& mesh,
+                const std::vector<BodyPart>& parts, const Vector3d& front) {
+  Opening opening = cylinder(name, limb.root, limb.direction, front);
+  double end = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (parts[i] == part) end = std::max(end, limb.along(mesh.vertices[i]));
+  if (!std::isfinite(end)) return opening;
+  const auto centre = std::min_element(limb.centres.begin(), limb.centres.end(), [&](const auto& a, const auto& b) {
+    return std::abs(limb.along(a) - end + kEndToRim_m) < std::abs(limb.along(b) - end + kEndToRim_m);
+  });
+  const Vector3d shift = *centre - opening.centre;
+  opening.centre += shift - opening.axis * opening.axis.dot(shift);
+  return opening;
+}
+
 }  // namespace
 
 double Opening::along(const Vector3d& point) const {
@@ -42,7 +60,8 @@ double Opening::angle(const Vector3d& point) const {
   return std::atan2(d.dot(axis.cross(zero)), d.dot(zero));
 }
 
-std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const BodyLimbs& limbs) {
+std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const std::vector<BodyPart>& parts,
+                                      const BodyLimbs& limbs) {
   std::vector<Opening> openings;
   if (closed.vertices.empty()) return openings;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -58,8 +77,8 @@ std::vector<Opening> garment_openings(const std::string& kind, const Mesh& close
     Opening opening = cylinder("neck", neck, up, limbs.front);
     opening.shape = Opening::Shape::polar;
     openings.push_back(opening);
-    openings.push_back(cylinder("left_cuff", limbs.left_arm->root, limbs.left_arm->direction, limbs.front));
-    openings.push_back(cylinder("right_cuff", limbs.right_arm->root, limbs.right_arm->direction, limbs.front));
+    openings.push_back(of_limb("left_cuff", *limbs.left_arm, BodyPart::left_arm, closed, parts, limbs.front));
+    openings.push_back(of_limb("right_cuff", *limbs.right_arm, BodyPart::right_arm, closed, parts, limbs.front));
     Vector3d waist = limbs.neck;
     waist.y() = limbs.waist_y;
     openings.push_back(cylinder("hem", waist, -up, limbs.front));
@@ -69,8 +88,8 @@ std::vector<Opening> garment_openings(const std::string& kind, const Mesh& close
   if (kind == "trousers") {
     if (!limbs.left_leg || !limbs.right_leg) return {};
     openings.push_back(cylinder("waist", waist, up, limbs.front));
-    openings.push_back(cylinder("left_ankle", limbs.left_leg->root, limbs.left_leg->direction, limbs.front));
-    openings.push_back(cylinder("right_ankle", limbs.right_leg->root, limbs.right_leg->direction, limbs.front));
+    openings.push_back(of_limb("left_ankle", *limbs.left_leg, BodyPart::left_leg, closed, parts, limbs.front));
+    openings.push_back(of_limb("right_ankle", *limbs.right_leg, BodyPart::right_leg, closed, parts, limbs.front));
   } else if (kind == "skirt") {
     openings.push_back(cylinder("waist", waist, up, limbs.front));
     openings.push_back(cylinder("hem", middle(closed, low, low + 0.06, waist), -up, limbs.front));

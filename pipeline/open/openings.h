@@ -28,8 +28,9 @@ constexpr double kPolarRadius_m = 0.15;
 
 // The openings that a garment of this kind has on this body ("shirt", "dress": neck, cuffs, hem; "trousers": waist,
 // ankles; "skirt": waist, hem), roughly placed by the closed mesh. Empty when the body lacks the limbs for it, and for
-// a kind that is not known.
-std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const BodyLimbs& limbs);
+// a kind that is not known. `parts`: of the body, below the vertices of the mesh.
+std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const std::vector<BodyPart>& parts,
+                                      const BodyLimbs& limbs);
 
 // Which opening an edge point of the garment belongs to: by the part of the body below it, and its height. Null for
 // none.

@@ -10,7 +10,8 @@ namespace {
 constexpr double kEndPart = 0.0005;  // of the points (and four at least) may lie beyond an end as strays
 constexpr int kTubeSides = 72;
 constexpr double kTubeStep_m = 0.02;
-constexpr double kForkSeam_m = 0.015;  // limbs are told apart this far below the armpit or crotch
+constexpr double kForkSeam_m = 0.02;   // legs come apart this far below the crotch
+constexpr double kPastCuff_m = 0.025;  // an arm comes off the trunk this far past the cuff
 constexpr double kBeyond_m = 0.04;     // body kept past the caps, so that the surface runs straight up to them
 
 // The least value when a few strays are left out.
@@ -225,13 +226,15 @@ CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const s
   for (int side = 0; side < 2 && garment == "top"; ++side) {
     if (!extent.has_arm[side]) continue;
     const BodyPart arm = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
+    const Limb& limb = *limbs.arm(side);
     forks_.push_back({part_is([arm](BodyPart part) { return part == arm; }),
-                      part_is([arm](BodyPart part) { return part != arm; }), limbs.arm(side)->fork_y - kForkSeam_m});
+                      part_is([arm](BodyPart part) { return part != arm; }),
+                      limb.root + limb.direction * (extent.arm_along[side] + kPastCuff_m), limb.direction});
   }
   if (extent.forked)
     forks_.push_back({part_is([](BodyPart part) { return part == BodyPart::left_leg; }),
                       part_is([](BodyPart part) { return part == BodyPart::right_leg; }),
-                      limbs.crotch_y - kForkSeam_m});
+                      Vector3d(0, limbs.crotch_y - kForkSeam_m, 0), -Vector3d::UnitY()});
   bool first = true;
   for (const Mesh* mesh : {&covered_.mesh(), &tube_.mesh()})
     for (const Vector3d& v : mesh->vertices) {
@@ -259,7 +262,7 @@ double CoveredBody::signed_distance(const Vector3d& point, double bound_m) const
 double CoveredBody::from_crevice(const Vector3d& point, double bound_m) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Fork& fork : forks_) {
-    if (point.y() > fork.below_y) continue;
+    if ((point - fork.from).dot(fork.direction) < 0) continue;
     const double limb = fork.limb.closest(point).distance;
     if (!std::isfinite(limb)) continue;
     const double other = fork.other.closest(point, limb + 2 * bound_m).distance;

@@ -37,9 +37,9 @@ class CoveredBody {
   // Distance beyond the ends of the garment plus the margin: positive there, negative within.
   double beyond_ends(const Vector3d& point) const;
 
-  // How far the point is from the middle between two limbs that a garment goes round one by one (arm and trunk below
-  // the armpit, leg and leg below the crotch): zero half way, positive elsewhere; infinity above the fork, or where
-  // that is more than `bound_m`. Cloth that touches there is still two sheets.
+  // How far the point is from the middle between an arm and the trunk beyond the cuff, or between the legs below the
+  // crotch: zero half way, positive elsewhere; infinity above, or where that is more than `bound_m`. What touches there
+  // is two sheets, and has to come apart for the ends to be cut off one by one.
   double from_crevice(const Vector3d& point, double bound_m) const;
 
   // Box of the covered body, cut at the ends.
@@ -55,7 +55,7 @@ class CoveredBody {
   MeshQuery covered_, tube_;
   struct Fork {
     MeshQuery limb, other;
-    double below_y;
+    Vector3d from, direction;  // only beyond the plane through `from`
   };
   std::vector<Fork> forks_;
   Vector3d low_ = Vector3d::Zero(), high_ = Vector3d::Zero();
