@@ -34,7 +34,7 @@ void fields(V& v, LimbSplineParams& p) {
   v("shortest_edge_m", p.shortest_edge_m, 0.0005, 0.02, "m", "shorter edges that the cut leaves are collapsed");
 }
 
-constexpr double kEarlyEnd_m = 0.03;  // points that end this much before the others of a rim were not seen further
+constexpr double kEarlyEnd_m = 0.015;  // points that end this much before the others of a rim were not seen further
 
 struct Scene {
   const CaptureSession& session;

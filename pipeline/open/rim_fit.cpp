@@ -8,7 +8,7 @@
 namespace dressform {
 namespace {
 
-constexpr double kTension = 0.1;  // of first differences: angles without samples are bridged without swinging out
+constexpr double kTension = 1.0;  // of first differences: angles without samples are bridged without swinging out
 
 struct Place {
   int knot;     // and the next one

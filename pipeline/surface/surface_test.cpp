@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipeline/common/dressed_figure_for_tests.h"
+#include "scenes/error.h"
 
 namespace dressform {
 namespace {
@@ -58,6 +59,43 @@ TEST_P(EverySurface, IsClosedOnePieceAndCloseToTheCloth) {
     EXPECT_EQ(garment.support.points.size(), garment.support.normals.size());
     EXPECT_EQ(garment.support.points.size(), garment.support.colors.size());
   }
+}
+
+TEST_P(EverySurface, DoesNotDependOnTheNumberOfThreads) {
+  const figure::Capture capture = figure::capture({}, 0.002, 0.25);
+  std::vector<ClosedGarments> results;
+  for (const int threads : {1, 2}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(run(GetParam(), capture));
+  }
+  ASSERT_EQ(results[0].garments.size(), results[1].garments.size());
+  for (const auto& [name, garment] : results[0].garments) {
+    EXPECT_EQ(garment.mesh.vertices, results[1].garments.at(name).mesh.vertices);
+    EXPECT_EQ(garment.mesh.triangles, results[1].garments.at(name).mesh.triangles);
+  }
+}
+
+TEST_P(EverySurface, MissingViewsAndGarments) {
+  figure::Capture capture = figure::capture({}, 0.002, 0.25);
+  EXPECT_TRUE(Surface::at(GetParam())
+                  .run(capture.session, capture.calibration, capture.naked, capture.registration, {}, {}, 1)
+                  .garments.empty());
+  capture.registration.model_from_sensor.erase("k2");
+  capture.filled.garments["top"].erase("k3");
+  capture.filled.garments.erase("bottom");
+  const ClosedGarments closed = run(GetParam(), capture);
+  EXPECT_FALSE(closed.garments.count("bottom"));
+  ASSERT_TRUE(closed.garments.count("top"));
+  EXPECT_TRUE(topology(closed.garments.at("top").mesh).closed());
+  EXPECT_EQ(topology(closed.garments.at("top").mesh).euler(), 2);
+
+  for (auto& [name, garment] : capture.filled.garments["top"])  // next to nothing seen: no garment
+    garment.depth_mm(cv::Rect(0, 0, garment.depth_mm.cols, garment.depth_mm.rows - 58)) = 0;
+  EXPECT_FALSE(run(GetParam(), capture).garments.count("top"));
+  capture.registration.model_from_sensor.clear();
+  EXPECT_TRUE(run(GetParam(), capture).garments.empty());
+  capture.naked.body = {};
+  EXPECT_THROW(run(GetParam(), capture), InputError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, EverySurface, ::testing::ValuesIn(Surface::names()),
