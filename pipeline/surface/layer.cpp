@@ -24,6 +24,7 @@ struct LayerParams {
   double margin_m = 0.05;
   double carve_m = 0.03;
   double edge_m = 0.008;
+  double gap_m = 0.006;
   int fewest_points = 300;
 };
 template <class V>
@@ -37,6 +38,7 @@ void fields(V& v, LayerParams& p) {
   v("margin_m", p.margin_m, 0.01, 0.2, "m", "how far the closed surface runs on beyond the ends of the garment");
   v("carve_m", p.carve_m, 0.005, 0.2, "m", "space this far in front of what a view sees is empty");
   v("edge_m", p.edge_m, 0.003, 0.05, "m", "edges of the mesh shorter than this are collapsed");
+  v("gap_m", p.gap_m, 0.0, 0.05, "m", "cloth beneath another garment stays this far inside it where it is hidden");
   v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");
 }
 
@@ -133,9 +135,25 @@ void carve(const Space& space, const std::vector<DepthView>& views, const std::v
   });
 }
 
-// Negative inside the garment taken as a solid: within the layer and its ends, and not in the slits that keep apart
-// what goes round each limb.
-std::vector<float> solid(const Space& space, const CoveredBody& body, const std::vector<float>& ease) {
+// The closed garment that is worn over another one, and the height of its lower end: above it, it hides what is
+// beneath.
+struct Outer {
+  MeshQuery closed;
+  double bottom_y = 0;
+};
+
+// Where the garment beneath has to end at the latest: a gap inside the outer one, but never inside the body. Negative
+// inside.
+double beneath(const Outer& outer, const Vector3d& point, double body_distance, double gap_m) {
+  constexpr double kClearance_m = 0.002;
+  if (point.y() < outer.bottom_y) return -std::numeric_limits<double>::infinity();
+  return std::min(outer.closed.signed_distance(point) + gap_m, body_distance - kClearance_m);
+}
+
+// Negative inside the garment taken as a solid: within the layer and its ends, beneath what is worn over it, and not in
+// the slits that keep apart what goes round each limb.
+std::vector<float> solid(const Space& space, const CoveredBody& body, const std::vector<float>& ease,
+                         const std::optional<Outer>& outer, double gap_m) {
   const double slit_m = 0.75 * space.lattice.step_m;  // half its width: no lattice point is jumped over
   std::vector<float> field(space.lattice.count());
   tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
@@ -146,6 +164,8 @@ std::vector<float> solid(const Space& space, const CoveredBody& body, const std:
         if (value < space.lattice.step_m) {
           const Vector3d point = space.lattice.point(x, y, z);
           value = std::max(value, body.beyond_ends(point));
+          if (outer && value < space.lattice.step_m)
+            value = std::max(value, beneath(*outer, point, space.body_distance[at], gap_m));
           if (space.domain[at] && value < space.lattice.step_m && space.body_distance[at] > 0)
             value = std::max(value, slit_m - body.from_crevice(point, slit_m));
         }
@@ -164,8 +184,8 @@ GarmentExtent up_to_the_waist(GarmentExtent bottom, const GarmentExtent& top, co
 }
 
 std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud cloud, const GarmentExtent& extent,
-                                          const std::vector<DepthView>& views, const MeshQuery& naked,
-                                          const BodyLimbs& limbs, const LayerParams& params) {
+                                          const std::optional<Outer>& outer, const std::vector<DepthView>& views,
+                                          const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {
   const CoveredBody body(naked, limbs, name, extent, params.margin_m);
   const Space space = make_space(body, cloud.cloud, params);
 
@@ -176,7 +196,7 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
   ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
 
   BallReport report;
-  std::vector<float> field = ball_field(space.lattice, solid(space, body, ease), report);
+  std::vector<float> field = ball_field(space.lattice, solid(space, body, ease, outer, params.gap_m), report);
   if (field.empty()) return {};
   ClosedGarment garment;
   garment.mesh = tidied(lattice_surface(space.lattice, field), params.edge_m);
@@ -203,9 +223,14 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
   if (extents.count("top") && extents.count("bottom"))
     extents["bottom"] = up_to_the_waist(extents["bottom"], extents["top"], limbs);
   ClosedGarments closed;
-  for (auto& [name, cloud] : clouds) {
-    auto garment = make_garment(name, std::move(cloud), extents[name], views, query, limbs, params);
-    if (garment) closed.garments.emplace(name, std::move(*garment));
+  std::optional<Outer> outer;
+  for (const char* name : {"top", "bottom"}) {  // the top hangs over the bottom
+    const auto cloud = clouds.find(name);
+    if (cloud == clouds.end()) continue;
+    auto garment = make_garment(name, std::move(cloud->second), extents[name], outer, views, query, limbs, params);
+    if (!garment) continue;
+    outer.emplace(Outer{MeshQuery(garment->mesh), extents[name].bottom_y});
+    closed.garments.emplace(name, std::move(*garment));
   }
   return closed;
 }
