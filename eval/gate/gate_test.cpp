@@ -16,7 +16,7 @@ Scores some_scores() {
   scores.rows = {{"registration", "k2/rotation_deg@1", "deg", 0.2, "ok", 10},
                  {"surface", "top/f_5mm@1", "1", 0.93, "ok", 1000},
                  {"open", "top/loops@1", "count", 4, "ok", 1},
-                 {"texture", "bottom/ssim@1", "1", std::numeric_limits<double>::quiet_NaN(), "failed", 0}};
+                 {"fit", "bottom/ease_waist_change_mm@1", "mm", std::numeric_limits<double>::quiet_NaN(), "failed", 0}};
   return scores;
 }
 

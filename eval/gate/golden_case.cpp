@@ -44,9 +44,15 @@ GoldenCase recipe_from(const json& text, const std::string& name) {
 }
 
 GoldenScore score_from(const json& row) {
-  const double value =
+  GoldenScore score;  // member by member: a complaint half way leaves nothing half made
+  score.row.stage = row.at("stage").get<std::string>();
+  score.row.metric = row.at("metric").get<std::string>();
+  score.row.unit = row.at("unit").get<std::string>();
+  score.row.status = row.at("status").get<std::string>();
+  score.row.value =
       row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : row.at("value").get<double>();
-  return {{row.at("stage"), row.at("metric"), row.at("unit"), value, row.at("status"), 0}, row.at("tolerance")};
+  score.tolerance = row.at("tolerance").get<double>();
+  return score;
 }
 
 cv::Mat picture_from(const fs::path& file, const std::string& hash) {
