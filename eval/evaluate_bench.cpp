@@ -2,7 +2,7 @@
 
 #include "eval/evaluate.h"
 #include "eval/metrics/test_meshes.h"
-#include "synthetic/body.h"
+#include "synthetic/body/body.h"
 
 namespace dressform {
 namespace {

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "scenes/random.h"
-#include "synthetic/body.h"
-#include "synthetic/body_tracking.h"
+#include "synthetic/body/body.h"
+#include "synthetic/body/body_tracking.h"
+#include "synthetic/body/scan_path.h"
 #include "synthetic/capture/color_camera.h"
 #include "synthetic/capture/visibility.h"
-#include "synthetic/garment.h"
-#include "synthetic/room.h"
-#include "synthetic/scan_path.h"
+#include "synthetic/garments/garment.h"
+#include "synthetic/room/room.h"
 #include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {

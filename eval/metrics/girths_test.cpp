@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "synthetic/body.h"
+#include "synthetic/body/body.h"
 
 namespace dressform::metrics {
 namespace {

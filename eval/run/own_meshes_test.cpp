@@ -8,8 +8,8 @@
 
 #include "eval/run/scene_run.h"
 #include "scenes/mesh_io.h"
-#include "synthetic/body.h"
-#include "synthetic/garment.h"
+#include "synthetic/body/body.h"
+#include "synthetic/garments/garment.h"
 
 namespace dressform {
 namespace {
@@ -81,13 +81,14 @@ fs::path write_own_scene(const fs::path& folder) {
         write_obj(folder / (spec.slot + ".obj"),
                   {subdivided(garment.mesh), subdivided(garment.corner_uv), plaid(ground, ground * 0.5)});
         cv::imwrite((folder / (spec.slot + "_cloth.png")).string(), plaid(ground, ground * 0.5));
-        tables += "[[garment]]\nmesh = \"" + spec.slot + ".obj\"\ntexture = \"" + spec.slot + "_cloth.png\"\nkind = \"" +
-                  spec.kind + "\"\n";
+        tables += "[[garment]]\nmesh = \"" + spec.slot + ".obj\"\ntexture = \"" + spec.slot +
+                  "_cloth.png\"\nkind = \"" + spec.kind + "\"\n";
       }
   std::ofstream(folder / "own.toml") << "name = \"own\"\nroom = \"" << (library / "rooms/laboratory.toml").string()
                                      << "\"\nuser = \"" << (library / "bodies/customer.toml").string() << "\"\nrig = \""
                                      << (library / "rigs/thesis.toml").string() << "\"\nscan = \""
-                                     << (library / "scans/handheld.toml").string() << "\"\n[body]\nmesh = \"body.obj\"\n"
+                                     << (library / "scans/handheld.toml").string()
+                                     << "\"\n[body]\nmesh = \"body.obj\"\n"
                                      << tables;
   return folder / "own.toml";
 }

@@ -1,0 +1,117 @@
+#include "synthetic/body/body.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/error.h"
+#include "scenes/mesh_io.h"
+
+namespace dressform {
+namespace {
+
+struct Build {
+  const char* sex;
+  double stature, chest, waist, hip;
+};
+
+BodySpec spec_of(const Build& build) {
+  BodySpec spec;
+  spec.sex = build.sex;
+  spec.stature_m = build.stature;
+  spec.chest_m = build.chest;
+  spec.waist_m = build.waist;
+  spec.hip_m = build.hip;
+  return spec;
+}
+
+// The mannequin of the thesis, and builds from slim to stout.
+const Build kBuilds[] = {
+    {"male", 1.85, 1.01, 0.81, 0.91},   {"male", 1.76, 1.06, 0.94, 1.02},   {"male", 1.60, 0.92, 0.76, 0.90},
+    {"male", 1.95, 1.20, 1.12, 1.18},   {"male", 1.70, 1.15, 1.10, 1.10},   {"male", 1.88, 0.95, 0.80, 0.95},
+    {"female", 1.63, 0.95, 0.86, 1.02}, {"female", 1.55, 0.82, 0.68, 0.90}, {"female", 1.75, 0.92, 0.76, 1.00},
+    {"female", 1.68, 1.12, 1.05, 1.18}, {"female", 1.80, 1.00, 0.90, 1.08}, {"female", 1.60, 0.88, 0.72, 0.94},
+};
+
+class Bodies : public testing::TestWithParam<Build> {};
+
+TEST_P(Bodies, AreClosedAndMeasureWhatWasAsked) {
+  const Build build = GetParam();
+  const Body body = make_body(spec_of(build));
+  const Topology shape = topology(body.mesh);
+  EXPECT_TRUE(shape.closed());
+  EXPECT_EQ(shape.components, 1);
+  EXPECT_EQ(shape.euler(), 2);
+  EXPECT_NEAR(tape_girth(body.mesh, body.landmarks.chest), build.chest, 1e-3);
+  EXPECT_NEAR(tape_girth(body.mesh, body.landmarks.waist), build.waist, 1e-3);
+  EXPECT_NEAR(tape_girth(body.mesh, body.landmarks.hip), build.hip, 1e-3);
+  double low = 1, high = 0, volume = 0;
+  for (const Vector3d& v : body.mesh.vertices) {
+    low = std::min(low, v.y());
+    high = std::max(high, v.y());
+  }
+  EXPECT_NEAR(low, 0, 1e-9);
+  EXPECT_NEAR(high, build.stature, 1e-9);
+  for (const Vector3i& t : body.mesh.triangles)
+    volume += body.mesh.vertices[t[0]].dot(body.mesh.vertices[t[1]].cross(body.mesh.vertices[t[2]])) / 6;
+  EXPECT_GT(volume, 0.03);  // outward
+  EXPECT_LT(volume, 0.16);
+  EXPECT_EQ(body.joints.size(), 25u);
+}
+INSTANTIATE_TEST_SUITE_P(Builds, Bodies, testing::ValuesIn(kBuilds));
+
+TEST(Body, IsDeterministicAndFacesForward) {
+  const Body a = make_body({}), b = make_body({});
+  EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  // Feet point forward.
+  double front = 0, back = 0;
+  for (const Vector3d& v : a.mesh.vertices)
+    if (v.y() < 0.05) {
+      front = std::max(front, v.z());
+      back = std::min(back, v.z());
+    }
+  EXPECT_GT(front, 1.4 * -back);
+  EXPECT_GT(a.joints.at("HandLeft").x(), 0.2);
+  EXPECT_LT(a.joints.at("HandRight").x(), -0.2);
+}
+
+TEST(Body, RefusesWhatNoBodyMeasures) {
+  EXPECT_THROW(make_body(spec_of({"male", 2.60, 1.01, 0.81, 0.91})), InputError);
+  EXPECT_THROW(make_body(spec_of({"male", 1.85, 0.50, 0.81, 0.91})), InputError);
+  EXPECT_THROW(make_body(spec_of({"female", 1.65, 0.90, 1.40, 0.95})), InputError);
+  EXPECT_THROW(make_body(spec_of({"male", 1.85, 1.01, 0.81, std::nan("")})), InputError);
+  EXPECT_THROW(make_body(spec_of({"child", 1.20, 0.6, 0.6, 0.6})), InputError);
+}
+
+TEST(Body, OwnMeshIsMeasuredBySlices) {
+  const Body body = make_body({});
+  const auto file = std::filesystem::path(testing::TempDir()) / "someones_body.ply";
+  write_ply(file, body.mesh);
+  BodySpec spec;
+  spec.mesh = file;
+  const Body measured = make_body(spec);
+  EXPECT_EQ(measured.mesh.triangles.size(), body.mesh.triangles.size());
+  EXPECT_NEAR(measured.landmarks.stature, 1.85, 1e-6);
+  EXPECT_NEAR(measured.landmarks.crotch, body.landmarks.crotch, 0.025);
+  EXPECT_NEAR(measured.landmarks.armpit, body.landmarks.armpit, 0.035);
+  EXPECT_NEAR(tape_girth(measured.mesh, measured.landmarks.waist), 0.81, 0.01);
+  EXPECT_NEAR(tape_girth(measured.mesh, measured.landmarks.chest), 1.01, 0.02);
+  EXPECT_NEAR(tape_girth(measured.mesh, measured.landmarks.hip), 0.91, 0.02);
+  ASSERT_EQ(measured.joints.size(), 25u);
+  for (const auto& [name, place] : measured.joints) EXPECT_LT((place - body.joints.at(name)).norm(), 0.08) << name;
+}
+
+TEST(Body, OwnMeshMustBeClosed) {
+  Mesh mesh = make_body({}).mesh;
+  mesh.triangles.pop_back();
+  const auto file = std::filesystem::path(testing::TempDir()) / "open_body.ply";
+  write_ply(file, mesh);
+  BodySpec spec;
+  spec.mesh = file;
+  EXPECT_THROW(make_body(spec), InputError);
+}
+
+}  // namespace
+}  // namespace dressform

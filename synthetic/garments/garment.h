@@ -1,0 +1,20 @@
+#pragma once
+#include <vector>
+
+#include "scenes/ground_truth.h"
+#include "scenes/mesh.h"
+#include "scenes/scene.h"
+#include "synthetic/body/body.h"
+
+namespace dressform {
+
+struct Garment {
+  TexturedMesh textured;       // one-sided open surface, outward, world frame
+  std::vector<TruthRim> rims;  // `visible` is filled in by the capture
+};
+
+// The procedural garment on the body, or the scene's own mesh placed as given. `inner` are garments worn beneath it
+// (the trousers under a shirt): the new one stays outside them.
+Garment make_garment(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed);
+
+}  // namespace dressform

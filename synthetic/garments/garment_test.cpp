@@ -1,0 +1,177 @@
+#include "synthetic/garments/garment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <set>
+
+#include "scenes/error.h"
+#include "scenes/mesh_io.h"
+#include "synthetic/garments/print.h"
+#include "synthetic/geometry/surface_distance.h"
+
+namespace dressform {
+namespace {
+
+GarmentSpec garment(const std::string& kind, double sleeve_or_length, const std::string& print = "plain") {
+  GarmentSpec spec;
+  spec.kind = kind;
+  spec.slot = kind == "shirt" ? "top" : "bottom";
+  spec.sleeve = spec.length = sleeve_or_length;
+  spec.ease_m = 0.08;
+  spec.print.kind = print;
+  return spec;
+}
+
+BodySpec woman() {
+  BodySpec spec;
+  spec.sex = "female";
+  spec.stature_m = 1.64;
+  spec.chest_m = 0.95;
+  spec.waist_m = 0.80;
+  spec.hip_m = 1.02;
+  return spec;
+}
+
+struct Outfit {
+  const char* name;
+  BodySpec body;
+  GarmentSpec bottom, top;
+};
+
+class Outfits : public testing::TestWithParam<Outfit> {};
+
+void expect_well_cut(const Garment& garment, const std::vector<std::string>& names) {
+  const Mesh& mesh = garment.textured.mesh;
+  const Topology shape = topology(mesh);
+  EXPECT_EQ(shape.components, 1);
+  EXPECT_EQ(shape.non_manifold_edges, 0);
+  EXPECT_EQ(shape.loops, static_cast<int>(names.size()));
+  EXPECT_EQ(shape.euler(), 2 - static_cast<int>(names.size()));  // genus 0
+  EXPECT_EQ(shape.boundary_edges, 2 * shape.vertices - shape.triangles - 2 * shape.euler());
+  std::set<std::array<double, 3>> rim_vertices;
+  for (const auto& loop : boundary_loops(mesh))
+    for (int i : loop) rim_vertices.insert({mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z()});
+  ASSERT_EQ(garment.rims.size(), names.size());
+  size_t points = 0;
+  for (size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(garment.rims[i].name, names[i]);
+    points += garment.rims[i].points.size();
+    for (const Vector3d& p : garment.rims[i].points) EXPECT_TRUE(rim_vertices.count({p.x(), p.y(), p.z()}));
+  }
+  EXPECT_EQ(points, rim_vertices.size());
+}
+
+// Every vertex, edge middle and triangle middle.
+void expect_clear(const Mesh& cloth, const Mesh& surface, double clearance_m, bool open_surface) {
+  const SurfaceDistance tree(surface);
+  double worst = 1;
+  const auto look = [&](const Vector3d& p) {
+    const auto near = tree.closest(p, 0.03);
+    if (!near.found || (open_surface && std::abs(near.height) < 0.7 * near.distance)) return;
+    worst = std::min(worst, near.height);
+  };
+  for (const Vector3i& t : cloth.triangles) {
+    const Vector3d &a = cloth.vertices[t[0]], &b = cloth.vertices[t[1]], &c = cloth.vertices[t[2]];
+    for (const Vector3d& p : {a, Vector3d(0.5 * (a + b)), Vector3d((a + b + c) / 3)}) look(p);
+  }
+  EXPECT_GE(worst, clearance_m);
+}
+
+void expect_readable(const TexturedMesh& textured) {
+  ASSERT_EQ(textured.corner_uv.size(), textured.mesh.triangles.size());
+  ASSERT_FALSE(textured.texture.empty());
+  double mirrored = 0, all = 0;
+  for (size_t i = 0; i < textured.corner_uv.size(); ++i) {
+    const auto& uv = textured.corner_uv[i];
+    for (const Vector2f& q : uv) {
+      ASSERT_GE(q.minCoeff(), 0.f);
+      ASSERT_LE(q.maxCoeff(), 1.f);
+    }
+    const Vector2f a = uv[1] - uv[0], b = uv[2] - uv[0];
+    const Vector3i& t = textured.mesh.triangles[i];
+    const auto& v = textured.mesh.vertices;
+    const double area = (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm();
+    // Counter-clockwise seen from outside is clockwise where v grows downwards.
+    if (a.x() * b.y() - a.y() * b.x() > 0) mirrored += area;
+    all += area;
+  }
+  EXPECT_LT(mirrored, 0.01 * all);
+}
+
+TEST_P(Outfits, FitOutsideTheBodyWithExactRims) {
+  const Outfit& outfit = GetParam();
+  const Body body = make_body(outfit.body);
+  std::vector<Garment> worn{make_garment(outfit.bottom, body, {}, 7)};
+  worn.push_back(make_garment(outfit.top, body, worn, 7));
+  if (outfit.bottom.kind == "trousers")
+    expect_well_cut(worn[0], {"waist", "left_ankle", "right_ankle"});
+  else
+    expect_well_cut(worn[0], {"waist", "hem"});
+  expect_well_cut(worn[1], {"neck", "left_cuff", "right_cuff", "hem"});
+  for (const Garment& each : worn) {
+    expect_clear(each.textured.mesh, body.mesh, 0.003, false);
+    expect_readable(each.textured);
+  }
+  expect_clear(worn[1].textured.mesh, worn[0].textured.mesh, 0.001, true);
+}
+
+const Outfit kOutfits[] = {
+    {"group1", {}, garment("trousers", 0.96), garment("shirt", 0.42, "stars")},
+    {"group3", {}, garment("trousers", 0.97, "denim"), garment("shirt", 0.96, "stripes")},
+    {"group4", {}, garment("skirt", 0.48), garment("shirt", 0.42, "stars")},
+    {"woman", woman(), garment("trousers", 0.5), garment("shirt", 0.3, "complex")},
+};
+INSTANTIATE_TEST_SUITE_P(Garments, Outfits, testing::ValuesIn(kOutfits),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Garment, IsTheSameForTheSameSeed) {
+  const Body body = make_body({});
+  const GarmentSpec spec = garment("skirt", 0.4);
+  const Garment a = make_garment(spec, body, {}, 3), b = make_garment(spec, body, {}, 3),
+                c = make_garment(spec, body, {}, 4);
+  EXPECT_EQ(a.textured.mesh.vertices, b.textured.mesh.vertices);
+  EXPECT_EQ(cv::norm(a.textured.texture, b.textured.texture, cv::NORM_INF), 0);
+  EXPECT_NE(a.textured.mesh.vertices, c.textured.mesh.vertices);
+  EXPECT_THROW(make_garment(garment("cape", 1), body, {}, 3), InputError);
+}
+
+TEST(Garment, OwnMeshIsPlacedAsGivenAndItsRimsNamed) {
+  const Body body = make_body({});
+  const Garment made = make_garment(garment("trousers", 0.9), body, {}, 3);
+  const auto file = std::filesystem::path(testing::TempDir()) / "someones_trousers.glb";
+  write_glb(file, made.textured);
+  GarmentSpec spec = garment("trousers", 1);
+  spec.mesh = file;
+  const Garment read = make_garment(spec, body, {}, 3);
+  EXPECT_EQ(read.textured.mesh.triangles.size(), made.textured.mesh.triangles.size());
+  ASSERT_EQ(read.rims.size(), 3u);
+  std::set<std::string> names;
+  for (const TruthRim& rim : read.rims) names.insert(rim.name);
+  EXPECT_EQ(names, (std::set<std::string>{"waist", "left_ankle", "right_ankle"}));
+}
+
+TEST(Print, HasTheAskedSizeAndColours) {
+  PrintSpec spec;
+  for (const std::string kind : {"plain", "stars", "complex", "stripes", "plaid", "denim", "weave"}) {
+    spec.kind = kind;
+    spec.colors = {"#204060", "#ffffff"};
+    const cv::Mat picture = paint_print(spec, 0.5, 0.4, 1000, 5);
+    EXPECT_EQ(picture.size(), cv::Size(500, 400)) << kind;
+    EXPECT_EQ(cv::norm(picture, paint_print(spec, 0.5, 0.4, 1000, 5), cv::NORM_INF), 0) << kind;
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(picture, mean, deviation);
+    EXPECT_GT(mean[0], mean[2]) << kind;  // bluish ground, BGR
+    EXPECT_GT(deviation[0], 0.5) << kind;
+  }
+  spec.kind = "zebra";
+  EXPECT_THROW(paint_print(spec, 0.5, 0.4, 1000, 5), InputError);
+  spec.kind = "plain";
+  spec.colors = {"blue"};
+  EXPECT_THROW(paint_print(spec, 0.5, 0.4, 1000, 5), InputError);
+}
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,241 @@
+#include "synthetic/garments/print.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "scenes/error.h"
+#include "scenes/random.h"
+
+namespace dressform {
+namespace {
+
+cv::Scalar parse_color(const std::string& text) {
+  unsigned rgb = 0;
+  bool good = text.size() == 7 && text[0] == '#';
+  for (size_t i = 1; good && i < text.size(); ++i) {
+    good = std::isxdigit(static_cast<unsigned char>(text[i])) != 0;
+    const char c = static_cast<char>(std::tolower(static_cast<unsigned char>(text[i])));
+    rgb = rgb * 16 + (c >= 'a' ? c - 'a' + 10 : c - '0');
+  }
+  if (!good) throw InputError("garment.print.colors", "found \"" + text + "\"; expected \"#rrggbb\"");
+  return {double(rgb & 255), double(rgb >> 8 & 255), double(rgb >> 16)};
+}
+
+// What all painters need.
+struct Canvas {
+  cv::Mat picture;
+  double pixels_per_m;
+  std::vector<cv::Scalar> colors;  // ground first; never empty
+  std::string text;
+  Seed seed;
+
+  cv::Scalar color(size_t i) const { return colors[i < colors.size() ? i : colors.size() - 1]; }
+  cv::Point2d middle() const { return {0.5 * picture.cols, 0.5 * picture.rows}; }
+  double pixels(double metres) const { return metres * pixels_per_m; }
+};
+
+constexpr int kShift = 4;  // fixed-point bits of OpenCV's drawing functions
+cv::Point fixed(const cv::Point2d& p) { return {cvRound(p.x * (1 << kShift)), cvRound(p.y * (1 << kShift))}; }
+
+void fill_polygon(cv::Mat& picture, const std::vector<cv::Point2d>& outline, const cv::Scalar& color) {
+  std::vector<cv::Point> points;
+  for (const auto& p : outline) points.push_back(fixed(p));
+  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{points}, color, cv::LINE_AA, kShift);
+}
+
+void draw_star(cv::Mat& picture, const cv::Point2d& center, double radius, double turn, const cv::Scalar& color) {
+  std::vector<cv::Point2d> outline;
+  for (int i = 0; i < 10; ++i) {
+    const double angle = turn + i * CV_PI / 5, r = i % 2 ? 0.42 * radius : radius;
+    outline.emplace_back(center.x + r * std::sin(angle), center.y - r * std::cos(angle));
+  }
+  fill_polygon(picture, outline, color);
+}
+
+constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
+constexpr double kTextWidth = 0.25;  // at most, so that the front shows all of it, m
+
+// Height of the text: the wanted one, or what its width leaves.
+double fitting_height(const std::string& text, double wanted_m) {
+  int baseline = 0;
+  const cv::Size size = cv::getTextSize(text, kFont, 1, 3, &baseline);
+  return std::min(wanted_m, kTextWidth * 21 / std::max(1, size.width));
+}
+
+// Text about a middle, `height_m` high, in strokes.
+void draw_text(Canvas& canvas, const cv::Point2d& middle, double wanted_m, const cv::Scalar& color) {
+  const double height_m = fitting_height(canvas.text, wanted_m);
+  const double scale = canvas.pixels(height_m) / 21;
+  const int thickness = std::max(1, cvRound(canvas.pixels(height_m) * 0.13));
+  int baseline = 0;
+  const cv::Size size = cv::getTextSize(canvas.text, kFont, scale, thickness, &baseline);
+  cv::putText(canvas.picture, canvas.text,
+              cv::Point(cvRound(middle.x - size.width / 2.0), cvRound(middle.y + size.height / 2.0)), kFont, scale,
+              color, thickness, cv::LINE_AA);
+}
+
+// Stars all over on a jittered lattice, and characters across the front.
+void paint_stars(Canvas& canvas) {
+  const double pitch = canvas.pixels(0.115);
+  const cv::Point2d middle = canvas.middle();
+  const int across = static_cast<int>(middle.x / pitch) + 2, down = static_cast<int>(middle.y / pitch) + 2;
+  const double text_height = 0.075, text_y = middle.y - canvas.pixels(0.06);
+  std::uint64_t index = 0;
+  for (int j = -down; j <= down; ++j)
+    for (int i = -across; i <= across; ++i) {
+      const auto u = uniform4(canvas.seed, stream_of("stars"), index++);
+      const cv::Point2d at(middle.x + pitch * (i + (j % 2 ? 0.5 : 0.0) + 0.25 * (u[0] - 0.5)),
+                           middle.y + pitch * (j + 0.25 * (u[1] - 0.5)));
+      const double half_text = canvas.pixels(0.5 * kTextWidth);
+      const bool under_text = !canvas.text.empty() && std::abs(at.y - text_y) < canvas.pixels(0.075) &&
+                              std::abs(at.x - middle.x) < half_text + canvas.pixels(0.03);
+      if (under_text) continue;
+      draw_star(canvas.picture, at, canvas.pixels(0.014 + 0.018 * u[2]), 2 * CV_PI * u[3],
+                canvas.color(1 + index % std::max<size_t>(1, canvas.colors.size() - 1)));
+    }
+  if (!canvas.text.empty()) draw_text(canvas, {middle.x, text_y}, text_height, canvas.color(1));
+}
+
+// A dense all-over print of leaves, rings, lozenges and strokes in all print colours.
+void paint_complex(Canvas& canvas) {
+  const double pitch = canvas.pixels(0.038);
+  const cv::Point2d middle = canvas.middle();
+  const int across = static_cast<int>(middle.x / pitch) + 2, down = static_cast<int>(middle.y / pitch) + 2;
+  std::uint64_t index = 0;
+  for (int j = -down; j <= down; ++j)
+    for (int i = -across; i <= across; ++i) {
+      const auto u = uniform4(canvas.seed, stream_of("complex"), index),
+                 v = uniform4(canvas.seed, stream_of("motif"), index);
+      ++index;
+      const cv::Point2d at(middle.x + pitch * (i + 0.7 * (u[0] - 0.5)), middle.y + pitch * (j + 0.7 * (u[1] - 0.5)));
+      const double size = canvas.pixels(0.008 + 0.014 * u[2]), turn = 360 * u[3];
+      const size_t count = std::max<size_t>(1, canvas.colors.size() - 1);
+      const cv::Scalar color = canvas.color(1 + std::min(count - 1, static_cast<size_t>(v[0] * count)));
+      const int stroke = std::max(1, cvRound(0.28 * size));
+      const int motif = static_cast<int>(v[1] * 4);
+      if (motif == 0)
+        cv::ellipse(canvas.picture, fixed(at), fixed({size, 0.4 * size}), turn, 0, 360, color, cv::FILLED, cv::LINE_AA,
+                    kShift);
+      if (motif == 1)
+        cv::circle(canvas.picture, fixed(at), cvRound(0.8 * size * (1 << kShift)), color, stroke, cv::LINE_AA, kShift);
+      if (motif == 2)
+        fill_polygon(canvas.picture,
+                     {{at.x, at.y - size}, {at.x + 0.5 * size, at.y}, {at.x, at.y + size}, {at.x - 0.5 * size, at.y}},
+                     color);
+      if (motif == 3)
+        cv::ellipse(canvas.picture, fixed(at), fixed({1.2 * size, 0.8 * size}), turn, 20, 200, color, stroke,
+                    cv::LINE_AA, kShift);
+    }
+  if (!canvas.text.empty()) draw_text(canvas, middle, 0.08, canvas.color(1));
+}
+
+// Two parallel stripes across the front, below the chest.
+void paint_stripes(Canvas& canvas) {
+  for (const double offset : {-0.055, 0.015}) {
+    const double y = canvas.middle().y + canvas.pixels(offset - 0.03), half = canvas.pixels(0.018);
+    cv::rectangle(canvas.picture, cv::Point(0, cvRound(y - half)),
+                  cv::Point(canvas.picture.cols - 1, cvRound(y + half)), canvas.color(1), cv::FILLED);
+  }
+  if (!canvas.text.empty())
+    draw_text(canvas, {canvas.middle().x, canvas.middle().y - canvas.pixels(0.16)}, 0.06, canvas.color(1));
+}
+
+// Crossing bands, half transparent.
+void paint_plaid(Canvas& canvas) {
+  const cv::Mat ground = canvas.picture.clone();
+  for (int layer = 0; layer < 2; ++layer) {
+    cv::Mat bands = canvas.picture.clone();
+    const double pitch = canvas.pixels(0.09), half = canvas.pixels(layer == 0 ? 0.014 : 0.004),
+                 shift = layer * 0.5 * pitch;
+    for (double x = std::fmod(canvas.middle().x, pitch) - pitch + shift; x < bands.cols; x += pitch)
+      cv::rectangle(bands, cv::Point2d(x - half, 0), cv::Point2d(x + half, bands.rows), canvas.color(1 + layer),
+                    cv::FILLED);
+    cv::addWeighted(canvas.picture, 0.5, bands, 0.5, 0, canvas.picture);
+    bands = canvas.picture.clone();
+    for (double y = std::fmod(canvas.middle().y, pitch) - pitch + shift; y < bands.rows; y += pitch)
+      cv::rectangle(bands, cv::Point2d(0, y - half), cv::Point2d(bands.cols, y + half), canvas.color(1 + layer),
+                    cv::FILLED);
+    cv::addWeighted(canvas.picture, 0.5, bands, 0.5, 0, canvas.picture);
+  }
+}
+
+void paint_nothing(Canvas&) {}
+
+void paint_text(Canvas& canvas) {
+  if (!canvas.text.empty())
+    draw_text(canvas, {canvas.middle().x, canvas.middle().y - canvas.pixels(0.06)}, 0.08, canvas.color(1));
+}
+
+// Gaussian noise of unit deviation, smooth over `grain_px` across and down.
+cv::Mat smooth_noise(const cv::Size& size, double across_px, double down_px, Seed seed, std::uint64_t stream) {
+  const int w = std::max(2, static_cast<int>(std::ceil(size.width / across_px)) + 1);
+  const int h = std::max(2, static_cast<int>(std::ceil(size.height / down_px)) + 1);
+  cv::Mat coarse(h, w, CV_32F);
+  float* values = coarse.ptr<float>();
+  const size_t count = static_cast<size_t>(w) * h;
+  for (size_t i = 0; i < count; i += 4) {
+    const auto n = normal4(seed, stream, i / 4);
+    for (size_t k = 0; k < 4 && i + k < count; ++k) values[i + k] = static_cast<float>(n[k]);
+  }
+  cv::Mat fine;
+  cv::resize(coarse, fine, size, 0, 0, cv::INTER_LINEAR);
+  return fine;
+}
+
+// Brightness of the weave: yarns of uneven thickness both ways and a slow unevenness of the dye, about 1.
+cv::Mat weave(const Canvas& canvas, double yarn_contrast, double dye_contrast) {
+  const cv::Size size = canvas.picture.size();
+  const double px = canvas.pixels_per_m;
+  const auto grain = [&](double across_m, double down_m, const char* name) {
+    return smooth_noise(size, std::max(1.0, across_m * px), std::max(1.0, down_m * px), canvas.seed, stream_of(name));
+  };
+  cv::Mat factor = grain(0.001, 0.020, "warp") + grain(0.020, 0.001, "weft");
+  factor = 1 + 0.7 * yarn_contrast * factor + dye_contrast * grain(0.05, 0.06, "dye");
+  return factor;
+}
+
+void modulate(cv::Mat& picture, const cv::Mat& factor) {
+  cv::Mat three, values;
+  cv::merge(std::vector<cv::Mat>{factor, factor, factor}, three);
+  picture.convertTo(values, CV_32F);
+  cv::Mat(values.mul(three)).convertTo(picture, CV_8U);
+}
+
+struct Kind {
+  const char* name;
+  void (*paint)(Canvas&);
+  double yarn_contrast, dye_contrast;
+};
+const Kind kKinds[] = {
+    {"plain", paint_text, 0.030, 0.015},      {"stars", paint_stars, 0.025, 0.012},
+    {"complex", paint_complex, 0.025, 0.012}, {"stripes", paint_stripes, 0.030, 0.015},
+    {"plaid", paint_plaid, 0.030, 0.012},     {"denim", paint_nothing, 0.10, 0.05},
+    {"weave", paint_nothing, 0.12, 0.02},
+};
+
+}  // namespace
+
+cv::Mat paint_print(const PrintSpec& spec, double width_m, double height_m, double pixels_per_m, Seed seed) {
+  const Kind* kind = nullptr;
+  std::string known;
+  for (const Kind& each : kKinds) {
+    known += (known.empty() ? "" : ", ") + std::string(each.name);
+    if (spec.kind == each.name) kind = &each;
+  }
+  if (!kind) throw InputError("garment.print.kind", "found \"" + spec.kind + "\"; expected one of " + known);
+  Canvas canvas;
+  canvas.pixels_per_m = pixels_per_m;
+  canvas.text = spec.text;
+  canvas.seed = seed;
+  for (const std::string& color : spec.colors) canvas.colors.push_back(parse_color(color));
+  if (canvas.colors.empty()) canvas.colors.push_back(cv::Scalar(150, 140, 130));
+  if (canvas.colors.size() == 1) canvas.colors.push_back(cv::Scalar(240, 240, 240));
+  const cv::Size size(std::max(1, cvCeil(width_m * pixels_per_m)), std::max(1, cvCeil(height_m * pixels_per_m)));
+  canvas.picture = cv::Mat(size, CV_8UC3, canvas.colors[0]);
+  kind->paint(canvas);
+  modulate(canvas.picture, weave(canvas, kind->yarn_contrast, kind->dye_contrast));
+  return canvas.picture;
+}
+
+}  // namespace dressform

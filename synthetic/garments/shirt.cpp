@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/random.h"
+#include "synthetic/garments/creases.h"
+#include "synthetic/garments/garment_shape.h"
+#include "synthetic/garments/limb_outlines.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kBack = -0.02;       // of the torso's middle and of the side seams, z in m
+constexpr double kClearance = 0.006;  // of the cloth off the body, m
+
+ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, double hem_y,
+                      Seed seed) {
+  const BodyLandmarks& m = body.landmarks;
+  const double low = hem_y - 0.05, high = m.neck + 0.05;
+  const ClothRows taut =
+      taut_rows(torso_frame(), low, high, trunk_outline(body, inner, 0.002), [](double) { return Vector2d(kBack, 0); });
+  const ClothRows least = grown(taut, kClearance);
+  // Cloth hangs from the chest and the shoulder blades (downwards is backwards along s) and rises freely to the neck.
+  const ClothRows hung = smoothed(span_hollows(taut, 4.0, 0.10), 0.012, 0.06);
+  const int chest = hung.row_of(m.chest);
+  const double ease = spec.ease_m - (row_girth(hung, chest) - tape_girth(body.mesh, m.chest));
+  const std::vector<Crease> creases = draw_creases(
+      {
+          {m.waist - 0.10, m.waist + 0.10, 0.0, 0.5, 0.16, 0.014, 0.9, 16},
+          {hem_y - 0.02, hem_y + 0.14, 1.5, 0.25, 0.26, 0.020, 1.0, 14},
+          {m.chest - 0.10, m.chest + 0.05, 0.9, 0.5, 0.14, 0.016, 0.55, 12},
+      },
+      spec.fold_amplitude_m, seed, stream_of("shirt torso creases"));
+  const double fade_from = m.armpit - 0.02, fade = 0.10;
+  const auto height = [&](double s, double angle) {
+    const double t = std::clamp((fade_from + fade - s) / fade, 0.0, 1.0);
+    return t * crease_height(creases, s, angle, 0.16);
+  };
+  return no_smaller(displaced(grown(hung, std::max(0.0, ease / (2 * M_PI))), height), least, 0.006);
+}
+
+ClothRows shirt_sleeve(const GarmentSpec& spec, const Body& body, double side, double cuff, Seed seed) {
+  const Tube::Frame frame = arm_frame(body, side);
+  const ClothRows taut =
+      taut_rows(frame, -0.055, cuff + 0.035, arm_outline(body, side), [](double) { return Vector2d(0, 0); });
+  const ClothRows least = grown(taut, kClearance);
+  const ClothRows hung = smoothed(span_hollows(taut, 0.10, 6.0), 0.012, 0.08);
+  const double elbow = (body.joints.at(side > 0 ? "ElbowLeft" : "ElbowRight") - frame.origin).norm();
+  const std::vector<Crease> creases = draw_creases(
+      {
+          {elbow - 0.07, elbow + 0.06, 0.0, 0.5, 0.11, 0.011, 1.2, 12},
+          {0.10, std::max(0.12, cuff - 0.02), 0.3, 0.8, 0.12, 0.013, 0.8, 14},
+      },
+      spec.fold_amplitude_m, seed, stream_of("sleeve creases") + (side > 0 ? 0 : 1));
+  const double ease = 0.004 + 0.9 * spec.ease_m / (2 * M_PI);
+  // On the shoulder the cloth lies close.
+  const auto height = [&](double s, double angle) {
+    const double t = std::clamp((s - 0.05) / 0.06, 0.0, 1.0), u = std::clamp(s / 0.12, 0.0, 1.0);
+    return 0.005 + u * (ease - 0.005) + t * crease_height(creases, s, angle, 0.055);
+  };
+  return no_smaller(displaced(hung, height), least, 0.005);
+}
+
+}  // namespace
+
+GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+  const BodyLandmarks& m = body.landmarks;
+  const double hem_y = m.waist - spec.hem_below_waist_m;
+  const Tube torso = shirt_torso(spec, body, inner, hem_y, seed).tube();
+  const double cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, 1);
+  const double right_cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, -1);
+  const Tube left = shirt_sleeve(spec, body, 1, cuff, seed).tube();
+  const Tube right = shirt_sleeve(spec, body, -1, right_cuff, seed).tube();
+
+  GarmentShape shape;
+  shape.field = [torso, left, right](const Vector3d& p) {
+    const double sleeve = p.x() > 0 ? left.field(p) : right.field(p);
+    return smooth_union(torso.field(p), sleeve, 0.028);
+  };
+  const double reach =
+      std::max(std::abs(left.point(left.s_max(), 0, 0).x()), std::abs(right.point(right.s_max(), 0, 0).x()));
+  shape.box = {
+      Vector3d(
+          -reach - 0.12,
+          std::min({torso.s_min(), left.point(left.s_max(), 0, 0).y(), right.point(right.s_max(), 0, 0).y()}) - 0.06,
+          -0.40),
+      Vector3d(reach + 0.12, torso.s_max() + 0.02, 0.40)};
+
+  // Positive where a place belongs to the sleeve rather than the torso.
+  const auto sleeve_over_torso = [torso, left, right](const Vector3d& p) {
+    return torso.field(p) - (p.x() > 0 ? left.field(p) : right.field(p));
+  };
+  // Round neck: half an ellipse seen from the front, deep there and shallow at the back.
+  const double size = m.stature / 1.75, middle_y = m.neck + 0.020, half_width = 0.104 * size;
+  const double front_depth = 0.100 * size, back_depth = 0.034 * size;
+  shape.cuts.push_back({"neck", [=](const Vector3d& p) {
+                          const double t = std::clamp((p.z() + 0.105) / 0.075, 0.0, 1.0);
+                          const double depth = back_depth + t * t * (3 - 2 * t) * (front_depth - back_depth);
+                          const double x = p.x() / half_width, y = std::min(p.y() - middle_y, 0.0) / depth;
+                          return 0.7 * depth * (1 - std::hypot(x, y));
+                        }});
+  for (const double side : {1.0, -1.0}) {
+    const Tube::Frame frame = arm_frame(body, side);
+    const double end = side > 0 ? cuff : right_cuff;
+    shape.cuts.push_back({side > 0 ? "left_cuff" : "right_cuff", [=](const Vector3d& p) {
+                            if (p.x() * side < 0) return -1.0;
+                            return std::min((p - frame.origin).dot(frame.axis) - end, sleeve_over_torso(p));
+                          }});
+  }
+  const double slant = 0.02 * (2 * uniform(seed, stream_of("shirt hem"), 0) - 1);
+  shape.cuts.push_back({"hem", [=](const Vector3d& p) {
+                          const double edge = hem_y + slant * p.x() - 0.05 * p.z();
+                          return std::min(edge - p.y(), -sleeve_over_torso(p));
+                        }});
+
+  const ArcLength torso_arc(torso), left_arc(left), right_arc(right);
+  const double armpit = m.armpit, top = m.neck + 0.05;
+  shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
+                            const Vector3d at = torso.polar(p), about = torso.polar(near);
+                            const double center_angle = angle_near(about[1], 0);
+                            const double angle = angle_near(at[1], center_angle);
+                            // On the shoulder the cloth goes on outwards from the torso's side.
+                            const double level = std::min(at[0], armpit);
+                            const double outwards = std::max(0.0, at[2] - torso.radius(level, angle));
+                            const double side = std::abs(center_angle) < M_PI / 2 ? 1 : -1;  // front or back
+                            const double u = torso_arc.at(level, angle) + side * std::copysign(outwards, angle);
+                            // Over the shoulder the cloth rolls backwards: its depth counts as length, too.
+                            const double w = std::clamp((p.y() - armpit) / 0.06, 0.0, 1.0);
+                            const double rise = 0.6 * w * std::max(0.0, 0.10 - std::abs(p.z() - kBack));
+                            return Vector2d(u, top - p.y() - rise);
+                          },
+                          true});
+  for (const double side : {1.0, -1.0}) {
+    const Tube tube = side > 0 ? left : right;
+    const ArcLength arc = side > 0 ? left_arc : right_arc;
+    shape.pieces.push_back({[tube, arc](const Vector3d& p, const Vector3d& near) {
+                              const Vector3d at = tube.polar(p), about = tube.polar(near);
+                              const double angle = angle_near(at[1], angle_near(about[1], 0));
+                              return Vector2d(arc.at(at[0], angle), at[0] - tube.s_min());
+                            },
+                            false});
+  }
+  // The sleeves are sewn on where they leave the torso, below the round of the shoulder.
+  const auto sleeve_piece = [=](const Vector3d& p) {
+    const double along = p.x() > 0 ? left.polar(p)[0] : right.polar(p)[0];
+    return std::min(sleeve_over_torso(p), along - 0.045);
+  };
+  shape.seams.push_back(sleeve_piece);
+  shape.seams.push_back([](const Vector3d& p) { return p.z() - kBack; });  // side and shoulder seams
+  shape.piece_of = [sleeve_piece](const Vector3d& p) { return sleeve_piece(p) < 0 ? 0 : p.x() > 0 ? 1 : 2; };
+  return shape;
+}
+
+}  // namespace dressform

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/random.h"
+#include "synthetic/garments/creases.h"
+#include "synthetic/garments/garment_shape.h"
+#include "synthetic/garments/limb_outlines.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kClearance = 0.005;
+
+ClothRows trousers_seat(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+  const BodyLandmarks& m = body.landmarks;
+  const ClothRows taut = taut_rows(torso_frame(), m.crotch - 0.012, m.waist + 0.06, trunk_outline(body, inner, 0.002),
+                                   [](double) { return Vector2d(-0.01, 0); });
+  const ClothRows least = grown(taut, kClearance);
+  const ClothRows hung = smoothed(span_hollows(taut, 0.35, 0.12), 0.012, 0.06);
+  const int hip = hung.row_of(m.hip);
+  const double ease = spec.ease_m - (row_girth(hung, hip) - tape_girth(body.mesh, m.hip));
+  const std::vector<Crease> creases = draw_creases({{m.hip - 0.05, m.waist - 0.06, 0.6, 0.8, 0.12, 0.016, 0.6, 14}},
+                                                   spec.fold_amplitude_m, seed, stream_of("seat creases"));
+  const auto height = [&](double s, double angle) {
+    const double t = std::clamp((m.waist - s) / 0.06, 0.0, 1.0);  // the waistband lies flat
+    return t * crease_height(creases, s, angle, 0.15);
+  };
+  // The waistband sits close; the ease is reached at the hips.
+  const auto ease_at = [&](double s) {
+    const double t = std::clamp((m.waist - 0.01 - s) / (m.waist - m.hip), 0.0, 1.0);
+    return std::max(0.0, (0.4 + 0.6 * t) * ease / (2 * M_PI));
+  };
+  const ClothRows eased = displaced(hung, [&](double s, double angle) { return ease_at(s) + height(s, angle); });
+  return no_smaller(eased, least, 0.005);
+}
+
+ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, double hem_y, Seed seed) {
+  const BodyLandmarks& m = body.landmarks;
+  const Tube::Frame frame = leg_frame(body, side);
+  const Outline outline = leg_outline(body, side);
+  const auto center = [&](double y) {
+    const std::vector<Vector2d> points = outline(std::min(y, m.crotch - 0.01));
+    Vector2d sum(0, 0);
+    for (const Vector2d& p : points) sum += p;
+    return points.empty() ? Vector2d(0, 0) : Vector2d(sum / points.size());
+  };
+  const Vector2d low = center(hem_y), high = center(m.crotch - 0.02);
+  const double low_y = hem_y - 0.035, high_y = m.crotch + 0.05;
+  const ClothRows taut = taut_rows(frame, low_y, high_y, outline, [=](double y) {
+    const double t = std::clamp((y - hem_y) / (m.crotch - 0.02 - hem_y), 0.0, 1.0);
+    return Vector2d(low + t * (high - low));
+  });
+  const ClothRows least = grown(taut, kClearance);
+  // Falls from the thigh almost straight.
+  const ClothRows hung = smoothed(span_hollows(taut, 0.30, 0.055), 0.015, 0.08);
+  const std::vector<Crease> creases = draw_creases(
+      {
+          {m.knee - 0.10, m.knee + 0.10, 0.0, 0.6, 0.13, 0.014, 1.0, 14},
+          {hem_y, hem_y + 0.18, 0.1, 0.5, 0.13, 0.014, 1.1, 14},
+          {m.knee + 0.12, m.crotch - 0.02, 0.7, 0.9, 0.14, 0.016, 0.7, 12},
+      },
+      spec.fold_amplitude_m, seed, stream_of("leg creases") + (side > 0 ? 0 : 1));
+  const double ease = 0.003 + 0.7 * spec.ease_m / (2 * M_PI);
+  // Between the thighs there is no room for ease or folds.
+  const auto height = [&](double s, double angle) {
+    const double t = std::clamp((m.crotch - s - 0.03) / 0.22, 0.0, 1.0), inner_side = 0.5 - 0.5 * std::cos(angle);
+    const double room = 1 - (1 - t) * inner_side * inner_side;
+    return room * (ease + crease_height(creases, s, angle, 0.08));
+  };
+  return no_smaller(displaced(hung, height), least, 0.004);
+}
+
+}  // namespace
+
+GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+  const BodyLandmarks& m = body.landmarks;
+  const double waist_y = m.waist - 0.015, ankle_y = std::max(m.ankle, 0.03);
+  // The shortest legs are 7 cm long: above that they are still one with the seat.
+  const double hem_y = std::min(waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y), m.crotch - 0.07);
+  const Tube seat = trousers_seat(spec, body, inner, seed).tube();
+  const Tube left = trouser_leg(spec, body, 1, hem_y, seed).tube();
+  const Tube right = trouser_leg(spec, body, -1, hem_y, seed).tube();
+
+  GarmentShape shape;
+  // Each leg stays on its own side of the middle, further off the further below the crotch.
+  const double middle = 0.5 * (leg_frame(body, 1).origin.x() + leg_frame(body, -1).origin.x()), crotch = m.crotch;
+  shape.field = [seat, left, right, middle, crotch](const Vector3d& p) {
+    const double off_middle = 0.001 + 0.006 * std::clamp((crotch - 0.01 - p.y()) / 0.06, 0.0, 1.0);
+    const double left_leg = smooth_intersection(left.field(p), off_middle - (p.x() - middle), 0.004);
+    const double right_leg = smooth_intersection(right.field(p), off_middle + (p.x() - middle), 0.004);
+    return smooth_union(seat.field(p), std::min(left_leg, right_leg), 0.02);
+  };
+  shape.box = {Vector3d(-0.45, left.s_min() - 0.01, -0.40), Vector3d(0.45, seat.s_max() + 0.01, 0.40)};
+
+  const double waist_slant = 0.10;  // the waistband is higher at the back
+  shape.cuts.push_back({"waist", [=](const Vector3d& p) { return p.y() - (waist_y - waist_slant * p.z()); }});
+  for (const double side : {1.0, -1.0}) {
+    const double tilt = 0.06 + 0.04 * uniform(seed, stream_of("trouser hem"), side > 0 ? 0 : 1);
+    const double z = leg_frame(body, side).origin.z();
+    shape.cuts.push_back({side > 0 ? "left_ankle" : "right_ankle", [=](const Vector3d& p) {
+                            return p.x() * side < 0 ? -1.0 : hem_y + tilt * (p.z() - z) - p.y();
+                          }});
+  }
+
+  const ArcLength seat_arc(seat), left_arc(left), right_arc(right);
+  for (const double side : {1.0, -1.0}) {
+    const Tube leg = side > 0 ? left : right;
+    const ArcLength leg_arc = side > 0 ? left_arc : right_arc;
+    // Across, both are measured from the outer seam: the seat's own zero is the front.
+    const double seat_side = side * M_PI / 2;
+    shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
+                              const Vector3d on_leg = leg.polar(p), on_seat = seat.polar(p);
+                              const double leg_angle = angle_near(on_leg[1], angle_near(leg.polar(near)[1], 0));
+                              const double seat_angle = angle_near(on_seat[1], seat_side);
+                              const double u_leg = leg_arc.at(std::min(p.y(), crotch), leg_angle);
+                              const double y = std::max(p.y(), crotch);
+                              const double u_seat = seat_arc.at(y, seat_angle) - seat_arc.at(y, seat_side);
+                              double t = std::clamp((p.y() - crotch + 0.03) / 0.07, 0.0, 1.0);
+                              t = t * t * (3 - 2 * t);
+                              return Vector2d(u_leg + t * (u_seat - u_leg), waist_y + 0.03 - p.y());
+                            },
+                            false});
+  }
+  shape.seams.push_back([](const Vector3d& p) { return p.x(); });
+  shape.piece_of = [](const Vector3d& p) { return p.x() > 0 ? 0 : 1; };
+  return shape;
+}
+
+}  // namespace dressform

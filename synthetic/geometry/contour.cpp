@@ -1,0 +1,309 @@
+#include "synthetic/geometry/contour.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+namespace dressform {
+namespace {
+
+constexpr int kBlock = 8;
+
+// Samples of the field on a grid; only blocks of cells near the surface are sampled exactly.
+struct Grid {
+  Vector3d origin;
+  double step;
+  Vector3i size;  // samples along x, y, z
+  std::vector<float> values;
+  std::vector<std::uint8_t> sampled;  // per block of cells
+  Vector3i blocks;
+
+  size_t at(int x, int y, int z) const { return (static_cast<size_t>(z) * size.y() + y) * size.x() + x; }
+  Vector3d point(int x, int y, int z) const { return origin + step * Vector3d(x, y, z); }
+};
+
+class Sampler {
+ public:
+  Sampler(const Field& field, const Eigen::AlignedBox3d& box, double step, const Vector3d& shift) : field_(field) {
+    grid_.step = step;
+    grid_.origin = box.min() - (Vector3d::Constant(2) - shift) * step;
+    for (int k = 0; k < 3; ++k) grid_.blocks[k] = static_cast<int>(std::ceil((box.sizes()[k] / step + 4) / kBlock));
+    grid_.size = grid_.blocks * kBlock + Vector3i::Ones();
+    grid_.values.assign(static_cast<size_t>(grid_.size.x()) * grid_.size.y() * grid_.size.z(), 0.f);
+    grid_.sampled.assign(static_cast<size_t>(grid_.blocks.prod()), 0);
+  }
+
+  Grid run() {
+    std::vector<int> blocks(grid_.blocks.prod());
+    std::iota(blocks.begin(), blocks.end(), 0);
+    tbb::parallel_for_each(blocks, [this](int block) { sample(block, false); });
+    // The field may promise too much distance: wherever the surface leaves the sampled blocks, follow it.
+    for (blocks = unsampled_at_surface(); !blocks.empty(); blocks = unsampled_at_surface())
+      tbb::parallel_for_each(blocks, [this](int block) { sample(block, true); });
+    return std::move(grid_);
+  }
+
+ private:
+  Vector3i place(int block) const {
+    return {block % grid_.blocks.x(), block / grid_.blocks.x() % grid_.blocks.y(),
+            block / (grid_.blocks.x() * grid_.blocks.y())};
+  }
+
+  // A block holds the samples [8 b, 8 b + 8) of each axis; the last block also holds those at the far side.
+  void sample(int block, bool always) {
+    const Vector3i b = place(block);
+    const Vector3d center = grid_.origin + grid_.step * kBlock * (b.cast<double>() + Vector3d::Constant(0.5));
+    const double reach = 0.5 * std::sqrt(3.0) * (kBlock + 1) * grid_.step;
+    const double middle = field_(center);
+    const bool near = always || std::abs(middle) < 2 * reach;
+    grid_.sampled[block] = near;
+    Vector3i end = (b + Vector3i::Ones()) * kBlock;
+    for (int k = 0; k < 3; ++k) end[k] += b[k] == grid_.blocks[k] - 1;
+    for (int z = b.z() * kBlock; z < end.z(); ++z)
+      for (int y = b.y() * kBlock; y < end.y(); ++y)
+        for (int x = b.x() * kBlock; x < end.x(); ++x) {
+          const double value = near ? field_(grid_.point(x, y, z)) : middle;
+          grid_.values[grid_.at(x, y, z)] = value == 0 ? 1e-9f : static_cast<float>(value);
+        }
+  }
+
+  bool crossed(int x, int y, int z) const {
+    const bool inside = grid_.values[grid_.at(x, y, z)] < 0;
+    for (int i = 1; i < 8; ++i)
+      if ((grid_.values[grid_.at(x + (i & 1), y + (i >> 1 & 1), z + (i >> 2))] < 0) != inside) return true;
+    return false;
+  }
+
+  // Blocks next to a crossed cell at the rim of a sampled block.
+  std::vector<int> unsampled_at_surface() const {
+    std::set<int> found;
+    for (int block = 0; block < grid_.blocks.prod(); ++block) {
+      if (!grid_.sampled[block]) continue;
+      const Vector3i b = place(block);
+      for (int i = 0; i < kBlock * kBlock * kBlock; ++i) {
+        const Vector3i local(i % kBlock, i / kBlock % kBlock, i / (kBlock * kBlock));
+        if (local.minCoeff() > 0 && local.maxCoeff() < kBlock - 1) continue;
+        const Vector3i cell = b * kBlock + local;
+        if (!crossed(cell.x(), cell.y(), cell.z())) continue;
+        for (int n = 0; n < 27; ++n) add_neighbour(b, local, Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), found);
+      }
+    }
+    return {found.begin(), found.end()};
+  }
+
+  void add_neighbour(const Vector3i& b, const Vector3i& local, const Vector3i& side, std::set<int>& found) const {
+    for (int k = 0; k < 3; ++k) {
+      if (side[k] < 0 && local[k] > 0) return;
+      if (side[k] > 0 && local[k] < kBlock - 1) return;
+      if (b[k] + side[k] < 0 || b[k] + side[k] >= grid_.blocks[k]) return;
+    }
+    const Vector3i n = b + side;
+    const int index = (n.z() * grid_.blocks.y() + n.y()) * grid_.blocks.x() + n.x();
+    if (!grid_.sampled[index]) found.insert(index);
+  }
+
+  const Field& field_;
+  Grid grid_;
+};
+
+// Corner i of a cell is at (i & 1, i >> 1 & 1, i >> 2). Edges 0-3 run along x, 4-7 along y, 8-11 along z.
+constexpr int kEdgeCorners[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                     {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+constexpr int kFaceCorners[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
+
+int edge_between(int a, int b) {
+  for (int e = 0; e < 12; ++e)
+    if ((kEdgeCorners[e][0] == a && kEdgeCorners[e][1] == b) || (kEdgeCorners[e][0] == b && kEdgeCorners[e][1] == a))
+      return e;
+  return -1;
+}
+
+// For each of the 256 sign patterns, which surface patch of the cell crosses each edge (-1: none). On a face with four
+// crossings each inside corner is cut off by itself; both cells at the face decide alike.
+struct PatchTable {
+  std::array<std::array<std::int8_t, 12>, 256> patch;
+  std::array<int, 256> count;
+
+  PatchTable() {
+    for (int sign = 0; sign < 256; ++sign) fill(sign);
+  }
+
+  void fill(int sign) {
+    std::array<int, 12> parent;
+    for (int e = 0; e < 12; ++e) parent[e] = e;
+    const auto root = [&](int e) {
+      while (parent[e] != e) e = parent[e];
+      return e;
+    };
+    const auto inside = [&](int corner) { return (sign >> corner & 1) != 0; };
+    for (const auto& face : kFaceCorners) {
+      std::vector<int> crossed;
+      for (int i = 0; i < 4; ++i)
+        if (inside(face[i]) != inside(face[(i + 1) % 4])) crossed.push_back(edge_between(face[i], face[(i + 1) % 4]));
+      if (crossed.size() == 2) parent[root(crossed[0])] = root(crossed[1]);
+      if (crossed.size() == 4)
+        for (int i = 0; i < 4; ++i)
+          if (inside(face[i]))
+            parent[root(edge_between(face[i], face[(i + 3) % 4]))] = root(edge_between(face[i], face[(i + 1) % 4]));
+    }
+    std::array<int, 12> number;
+    number.fill(-1);
+    count[sign] = 0;
+    for (int e = 0; e < 12; ++e) {
+      patch[sign][e] = -1;
+      if (inside(kEdgeCorners[e][0]) == inside(kEdgeCorners[e][1])) continue;
+      int& n = number[root(e)];
+      if (n < 0) n = count[sign]++;
+      patch[sign][e] = static_cast<std::int8_t>(n);
+    }
+  }
+};
+
+// Builds one vertex per surface patch of a cell and one quad per crossed grid edge.
+class DualMesher {
+ public:
+  explicit DualMesher(Grid grid) : grid_(std::move(grid)), first_vertex_(grid_.values.size(), -1) {}
+
+  Mesh run() {
+    for_cells([this](int x, int y, int z) { add_vertices(x, y, z); });
+    for_cells([this](int x, int y, int z) { add_quads(x, y, z); });
+    return std::move(mesh_);
+  }
+
+ private:
+  template <class Visit>
+  void for_cells(const Visit& visit) {
+    for (int z = 0; z + 1 < grid_.size.z(); ++z)
+      for (int y = 0; y + 1 < grid_.size.y(); ++y)
+        for (int bx = 0; bx < grid_.blocks.x(); ++bx) {
+          if (!block_sampled(bx, y / kBlock, z / kBlock)) continue;
+          for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) visit(x, y, z);
+        }
+  }
+  bool block_sampled(int x, int y, int z) const {
+    return grid_.sampled[(static_cast<size_t>(z) * grid_.blocks.y() + y) * grid_.blocks.x() + x];
+  }
+  int signs(int x, int y, int z) const {
+    int sign = 0;
+    for (int i = 0; i < 8; ++i)
+      if (grid_.values[grid_.at(x + (i & 1), y + (i >> 1 & 1), z + (i >> 2))] < 0) sign |= 1 << i;
+    return sign;
+  }
+
+  void add_vertices(int x, int y, int z) {
+    const int sign = signs(x, y, z);
+    if (sign == 0 || sign == 255) return;
+    const int count = table_.count[sign];
+    std::array<Vector3d, 4> sum;
+    std::array<int, 4> crossings{};
+    sum.fill(Vector3d::Zero());
+    for (int e = 0; e < 12; ++e) {
+      const int patch = table_.patch[sign][e];
+      if (patch < 0) continue;
+      const int a = kEdgeCorners[e][0], b = kEdgeCorners[e][1];
+      const double fa = grid_.values[grid_.at(x + (a & 1), y + (a >> 1 & 1), z + (a >> 2))];
+      const double fb = grid_.values[grid_.at(x + (b & 1), y + (b >> 1 & 1), z + (b >> 2))];
+      const Vector3d pa = grid_.point(x + (a & 1), y + (a >> 1 & 1), z + (a >> 2));
+      const Vector3d pb = grid_.point(x + (b & 1), y + (b >> 1 & 1), z + (b >> 2));
+      sum[patch] += pa + fa / (fa - fb) * (pb - pa);
+      ++crossings[patch];
+    }
+    first_vertex_[grid_.at(x, y, z)] = static_cast<int>(mesh_.vertices.size());
+    for (int i = 0; i < count; ++i) mesh_.vertices.push_back(sum[i] / crossings[i]);
+  }
+
+  // The vertex of cell (x, y, z) for the patch that crosses edge e of that cell.
+  int vertex(int x, int y, int z, int e) const {
+    return first_vertex_[grid_.at(x, y, z)] + table_.patch[signs(x, y, z)][e];
+  }
+
+  // The three grid edges that leave sample (x, y, z), each shared by four cells.
+  void add_quads(int x, int y, int z) {
+    if (x == 0 || y == 0 || z == 0) return;
+    const bool inside = grid_.values[grid_.at(x, y, z)] < 0;
+    if (inside != (grid_.values[grid_.at(x + 1, y, z)] < 0))
+      quad(vertex(x, y - 1, z - 1, 3), vertex(x, y, z - 1, 2), vertex(x, y, z, 0), vertex(x, y - 1, z, 1), inside);
+    if (inside != (grid_.values[grid_.at(x, y + 1, z)] < 0))
+      quad(vertex(x - 1, y, z - 1, 7), vertex(x - 1, y, z, 5), vertex(x, y, z, 4), vertex(x, y, z - 1, 6), inside);
+    if (inside != (grid_.values[grid_.at(x, y, z + 1)] < 0))
+      quad(vertex(x - 1, y - 1, z, 11), vertex(x, y - 1, z, 10), vertex(x, y, z, 8), vertex(x - 1, y, z, 9), inside);
+  }
+
+  void quad(int a, int b, int c, int d, bool outward) {
+    if (!outward) std::swap(b, d);
+    const auto& v = mesh_.vertices;
+    if ((v[a] - v[c]).squaredNorm() <= (v[b] - v[d]).squaredNorm()) {
+      mesh_.triangles.emplace_back(a, b, c);
+      mesh_.triangles.emplace_back(a, c, d);
+    } else {
+      mesh_.triangles.emplace_back(a, b, d);
+      mesh_.triangles.emplace_back(b, c, d);
+    }
+  }
+
+  const Grid grid_;
+  const PatchTable table_;
+  std::vector<int> first_vertex_;
+  Mesh mesh_;
+};
+
+Vector3d gradient(const Field& field, const Vector3d& p) {
+  constexpr double kDelta = 2e-4;
+  Vector3d g;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d d = kDelta * Vector3d::Unit(k);
+    g[k] = (field(p + d) - field(p - d)) / (2 * kDelta);
+  }
+  return g;
+}
+
+// Moves every vertex half way to the mean of its neighbours, then back onto the surface: even, well-shaped triangles.
+void relax(const Field& field, Mesh& mesh, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Vector3d> sum(mesh.vertices.size(), Vector3d::Zero());
+    std::vector<int> count(mesh.vertices.size(), 0);
+    for (const Vector3i& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k) {
+        sum[t[k]] += mesh.vertices[t[(k + 1) % 3]] + mesh.vertices[t[(k + 2) % 3]];
+        count[t[k]] += 2;
+      }
+    for (size_t i = 0; i < sum.size(); ++i) mesh.vertices[i] = 0.5 * (mesh.vertices[i] + sum[i] / count[i]);
+    project_to_surface(field, mesh.vertices, 1);
+  }
+  project_to_surface(field, mesh.vertices, 2);
+}
+
+}  // namespace
+
+void project_to_surface(const Field& field, std::vector<Vector3d>& points, int iterations) {
+  tbb::parallel_for(size_t{0}, points.size(), [&](size_t i) {
+    for (int k = 0; k < iterations; ++k) {
+      const Vector3d g = gradient(field, points[i]);
+      const double slope = g.squaredNorm();
+      if (slope < 0.01) return;
+      Vector3d step = field(points[i]) / slope * g;
+      const double length = step.norm();
+      if (length > 0.005) step *= 0.005 / length;  // a crease of the field must not throw the vertex away
+      points[i] -= step;
+    }
+  });
+}
+
+Mesh contour(const Field& field, const Eigen::AlignedBox3d& box, double step_m) {
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    const Vector3d shift = attempt * Vector3d(0.13, 0.17, 0.19);
+    Mesh mesh = DualMesher(Sampler(field, box, step_m, shift).run()).run();
+    if (mesh.triangles.empty()) throw std::runtime_error("contour: the field has no surface inside the box");
+    if (!topology(mesh).closed()) continue;
+    relax(field, mesh, 3);
+    return mesh;
+  }
+  throw std::runtime_error("contour: no placement of the grid gives a closed manifold");
+}
+
+}  // namespace dressform
