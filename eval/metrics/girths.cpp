@@ -4,28 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace dressform::metrics {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double kStep_m = 0.01;
-
-struct Slice {
-  double y = 0, girth_m = 0;
-  Vector2d center = Vector2d::Zero();
-  std::vector<double> areas;  // of all its lines, largest first
-};
-
-double signed_area(const std::vector<Vector2d>& points) {
-  double twice = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector2d &a = points[i], &b = points[(i + 1) % points.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return twice / 2;
-}
+constexpr double kStep_m = 0.005;
 
 Vector2d centroid(const std::vector<Vector2d>& points) {
   const double area = signed_area(points);
@@ -38,75 +22,97 @@ Vector2d centroid(const std::vector<Vector2d>& points) {
   return sum / (6 * area);
 }
 
-std::optional<Slice> slice_at(const Mesh& body, double y) {
-  Slice slice;
-  slice.y = y;
-  double largest = 0;
-  for (const auto& line : horizontal_section(body, y)) {
-    const double area = std::abs(signed_area(line.points));
-    slice.areas.push_back(area);
-    if (area <= largest) continue;
-    largest = area;
-    slice.girth_m = hull_girth_m(line.points);
-    slice.center = centroid(line.points);
-  }
-  std::sort(slice.areas.rbegin(), slice.areas.rend());
-  if (largest <= 0) return {};
-  return slice;
-}
-
-std::vector<Slice> slices_of(const Mesh& body) {
-  double low = 1e9, high = -1e9;
-  for (const auto& t : body.triangles)
-    for (int k = 0; k < 3; ++k) {
-      low = std::min(low, body.vertices[t[k]].y());
-      high = std::max(high, body.vertices[t[k]].y());
+// The trunk's girth over the height, and where it ends: legs below, arms above.
+class Trunk {
+ public:
+  Trunk(const Mesh& body, const BodyAxes& axes) : axes_(axes), first_y_(axes.low_y + 0.38 * axes.stature) {
+    const int count = static_cast<int>(0.52 * axes.stature / kStep_m);
+    for (int i = 0; i < count; ++i) {
+      const auto lines = horizontal_section(body, first_y_ + i * kStep_m);
+      const TrunkSection section = trunk_section(lines, axes);
+      girth_m_.push_back(hull_girth_m(section.outline));
+      bridge_.push_back(section.bridge);
+      half_breadth_.push_back(section.half_breadth);
+      legs_.push_back(thighs_apart(lines));
     }
-  std::vector<Slice> slices;
-  for (double y = low + kStep_m; y < high; y += kStep_m)
-    if (const auto slice = slice_at(body, y)) slices.push_back(*slice);
-  return slices;
+  }
+
+  double part(double of_stature) const { return axes_.low_y + of_stature * axes_.stature; }
+
+  // Mean girth over 5 cm about a height.
+  double girth(double y) const {
+    double sum = 0;
+    int count = 0;
+    for (int i = index(y - 0.025); i <= index(y + 0.025); ++i, ++count) sum += girth_m_[i];
+    return sum / count;
+  }
+
+  // The highest level with a gap or a deep notch between thighs; where people have theirs if thighs are one piece.
+  double crotch() const {
+    for (int i = index(part(0.56)); i > 0; --i)
+      if (legs_[i]) return first_y_ + i * kStep_m;
+    return part(0.475);
+  }
+
+  // The level below the one at which an arm's joint to the trunk is half as thick as the trunk, or where the trunk
+  // becomes much wider at once (arms held out level).
+  std::optional<double> armpit() const {
+    const int lag = static_cast<int>(0.03 / kStep_m);
+    for (int i = index(part(0.64)); i < static_cast<int>(girth_m_.size()); ++i)
+      if (bridge_[i] > 0.5 || (bridge_[i] == 0 && half_breadth_[i] > 1.25 * half_breadth_[i - lag]))
+        return first_y_ + (i - 1) * kStep_m;
+    return {};
+  }
+
+ private:
+  int index(double y) const {
+    return std::clamp(static_cast<int>(std::lround((y - first_y_) / kStep_m)), 0,
+                      static_cast<int>(girth_m_.size()) - 1);
+  }
+
+  // Less than half as thick in the middle as in the thighs: a web between thighs, or their touching, is no crotch.
+  bool thighs_apart(const std::vector<SectionLine>& lines) const {
+    const double aside = 0.055 * axes_.stature;
+    const double thigh = std::min(thickness_at(lines, axes_, aside), thickness_at(lines, axes_, -aside));
+    double middle = std::numeric_limits<double>::infinity();
+    for (double off = -0.015; off <= 0.0151; off += 0.003)
+      middle = std::min(middle, thickness_at(lines, axes_, off * axes_.stature));
+    return middle < 0.45 * thigh;
+  }
+
+  BodyAxes axes_;
+  double first_y_;
+  std::vector<double> girth_m_, bridge_, half_breadth_;
+  std::vector<char> legs_;
+};
+
+// Height between `low` and `high` with the largest (sign 1) or least (sign -1) girth, counted less by `pull` times the
+// square of how far it is, as a part of the span from `from` to `to`, from `usual`.
+struct Search {
+  double from, to;
+  double low, high;
+  double sign, usual, pull;
+};
+double extreme(const Trunk& trunk, const Search& search) {
+  double best_y = 0, best = -std::numeric_limits<double>::infinity();
+  constexpr int kSteps = 60;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double y = search.low + (search.high - search.low) * i / kSteps;
+    const double off = (y - search.from) / (search.to - search.from) - search.usual;
+    const double score = search.sign * trunk.girth(y) * (1 - search.sign * search.pull * off * off);
+    if (score <= best) continue;
+    best = score;
+    best_y = y;
+  }
+  return best_y;
 }
 
-// Mean girth over 5 cm about slice i.
-double smooth_girth(const std::vector<Slice>& slices, int i) {
-  double sum = 0;
-  int count = 0;
-  for (int k = std::max(0, i - 2); k <= std::min<int>(slices.size() - 1, i + 2); ++k, ++count) sum += slices[k].girth_m;
-  return sum / count;
-}
-
-// Slice of the largest (sign 1) or least (sign -1) smooth girth among [first, last].
-int extreme(const std::vector<Slice>& slices, int first, int last, double sign) {
-  int best = first;
-  for (int i = first; i <= last; ++i)
-    if (sign * smooth_girth(slices, i) > sign * smooth_girth(slices, best)) best = i;
-  return best;
-}
-
-int crotch_of(const std::vector<Slice>& slices) {
-  int crotch = -1;
-  const int count = static_cast<int>(slices.size());
-  for (int i = count * 3 / 10; i < count * 6 / 10; ++i)
-    if (slices[i].areas.size() > 1 && slices[i].areas[1] > 0.5 * slices[i].areas[0]) crotch = i;
-  return crotch;
-}
-
-int armpit_of(const std::vector<Slice>& slices, int crotch) {
-  const int count = static_cast<int>(slices.size());
-  for (int i = crotch + count / 7; i < count * 9 / 10; ++i)
-    if (slices[i].girth_m > 1.08 * slices[i - 2].girth_m) return i - 1;
-  return -1;
-}
-
-TapeLevels::Level level_of(const Mesh& body, const Slice& slice) {
-  TapeLevels::Level level{slice.y, slice.girth_m, slice.center, {}, {}};
-  for (auto& line : horizontal_section(body, slice.y)) level.limbs.push_back(std::move(line.points));
-  const auto torso = std::max_element(level.limbs.begin(), level.limbs.end(), [](const auto& a, const auto& b) {
-    return std::abs(signed_area(a)) < std::abs(signed_area(b));
-  });
-  level.torso = std::move(*torso);
-  level.limbs.erase(torso);
+TapeLevels::Level level_of(const Mesh& body, const BodyAxes& axes, double y) {
+  TrunkSection section = trunk_section(horizontal_section(body, y), axes);
+  TapeLevels::Level level{y, hull_girth_m(section.outline), Vector2d::Zero(), {}, {}};
+  if (!section.outline.empty()) level.center = centroid(section.outline);
+  level.torso = std::move(section.outline);
+  level.limbs = std::move(section.limbs);
   return level;
 }
 
@@ -143,88 +149,26 @@ double angle_round(const std::vector<Vector2d>& points, const Vector2d& center) 
 
 }  // namespace
 
-std::vector<SectionLine> horizontal_section(const Mesh& mesh, double y) {
-  // A point of the section lies on an edge; each crossed triangle joins two of them.
-  std::map<std::pair<int, int>, int> point_of_edge;
-  std::vector<Vector2d> points;
-  std::vector<std::array<int, 2>> neighbours;
-  const auto point_on = [&](int a, int b) {
-    const auto [found, fresh] = point_of_edge.emplace(std::minmax(a, b), static_cast<int>(points.size()));
-    if (fresh) {
-      const Vector3d &p = mesh.vertices[found->first.first], &q = mesh.vertices[found->first.second];
-      const Vector3d at = p + (q - p) * ((y - p.y()) / (q.y() - p.y()));
-      points.push_back({at.x(), at.z()});
-      neighbours.push_back({-1, -1});
-    }
-    return found->second;
-  };
-  const auto join = [&](int a, int b) {
-    for (auto [from, to] : {std::pair(a, b), std::pair(b, a)}) neighbours[from][neighbours[from][0] >= 0] = to;
-  };
-  for (const auto& t : mesh.triangles) {
-    int ends[2], count = 0;
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      if ((mesh.vertices[a].y() >= y) != (mesh.vertices[b].y() >= y)) ends[count++] = point_on(a, b);
-    }
-    if (count == 2) join(ends[0], ends[1]);
-  }
-  std::vector<SectionLine> lines;
-  std::vector<bool> used(points.size(), false);
-  const auto walk = [&](int start, bool closed) {
-    SectionLine line;
-    line.closed = closed;
-    for (int at = start; at >= 0 && !used[at];) {
-      used[at] = true;
-      line.points.push_back(points[at]);
-      const auto& next = neighbours[at];
-      at = next[0] >= 0 && !used[next[0]] ? next[0] : next[1];
-    }
-    lines.push_back(line);
-  };
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!used[i] && neighbours[i][1] < 0) walk(static_cast<int>(i), false);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!used[i]) walk(static_cast<int>(i), true);
-  return lines;
-}
-
-double hull_girth_m(const std::vector<Vector2d>& points) {
-  if (points.empty()) return 0;
-  std::vector<Vector2d> sorted = points, hull;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const Vector2d& a, const Vector2d& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); });
-  const auto extend = [&](const Vector2d& point, std::size_t least) {  // Andrew's monotone chain
-    while (hull.size() > least) {
-      const Vector2d u = hull.back() - hull[hull.size() - 2], w = point - hull.back();
-      if (u.x() * w.y() - u.y() * w.x() > 0) break;
-      hull.pop_back();
-    }
-    hull.push_back(point);
-  };
-  for (const auto& point : sorted) extend(point, 1);
-  const std::size_t lower = hull.size();
-  for (auto point = sorted.rbegin() + 1; point != sorted.rend(); ++point) extend(*point, lower);
-  double girth = 0;
-  for (std::size_t i = 0; i < hull.size(); ++i) girth += (hull[(i + 1) % hull.size()] - hull[i]).norm();
-  return girth;
-}
-
 std::optional<TapeLevels> tape_levels(const Mesh& body) {
-  const std::vector<Slice> slices = slices_of(body);
-  if (slices.size() < 60) return {};  // less than 60 cm tall
-  const int crotch = crotch_of(slices);
-  if (crotch < 0) return {};
-  const int armpit = armpit_of(slices, crotch);
-  if (armpit < 0) return {};
-  const int span = armpit - crotch, waist = extreme(slices, crotch + span * 15 / 100, crotch + span * 85 / 100, -1);
-  const int chest_top = armpit - static_cast<int>(slices.size()) / 50;
+  const auto axes = body_axes(body);
+  if (!axes || axes->stature < 0.6) return {};
+  const Trunk trunk(body, *axes);
+  const double crotch = trunk.crotch();
+  const auto armpit = trunk.armpit();
+  if (!armpit || *armpit < crotch + 0.12 * axes->stature) return {};
+  const auto between = [&](double t) { return crotch + t * (*armpit - crotch); };
+  const double waist = extreme(trunk, {crotch, *armpit, between(0.3), between(0.7), -1, 0.5, 8});
+  const double lowest_hip = crotch + 0.04 * (waist - crotch), highest_hip = crotch + 0.5 * (waist - crotch);
+  const double hip = extreme(trunk, {crotch, waist, lowest_hip, highest_hip, 1, 0.2, 0.5});
+  const double highest_chest = std::min(*armpit - 0.01 * axes->stature, trunk.part(0.73));
+  const double lowest_chest = std::min(waist + 0.45 * (*armpit - waist), highest_chest);
+  const double chest = extreme(trunk, {waist, *armpit, lowest_chest, highest_chest, 1, 0.75, 0});
   TapeLevels levels;
-  levels.waist = level_of(body, slices[waist]);
-  levels.hip = level_of(body, slices[extreme(slices, std::min(crotch + 2, waist), waist, 1)]);
-  levels.chest = level_of(body, slices[extreme(slices, std::min((waist + armpit) / 2, chest_top), chest_top, 1)]);
-  levels.crotch_y = slices[crotch].y;
-  levels.armpit_y = slices[armpit].y;
+  levels.waist = level_of(body, *axes, waist);
+  levels.hip = level_of(body, *axes, hip);
+  levels.chest = level_of(body, *axes, chest);
+  levels.crotch_y = crotch;
+  levels.armpit_y = *armpit;
   return levels;
 }
 

@@ -2,20 +2,9 @@
 #include <optional>
 #include <vector>
 
-#include "scenes/mesh.h"
+#include "eval/metrics/trunk_section.h"
 
 namespace dressform::metrics {
-
-// One connected line of a horizontal section, as (x, z).
-struct SectionLine {
-  std::vector<Eigen::Vector2d> points;
-  bool closed = false;
-};
-// Section of a mesh with the plane at height y (vertices at y count as above).
-std::vector<SectionLine> horizontal_section(const Mesh& mesh, double y);
-
-// Length of the convex hull's outline: what a tape measures.
-double hull_girth_m(const std::vector<Eigen::Vector2d>& points);
 
 // Heights at which tapes are laid on a standing body (y up), found on the body itself, and the girths there.
 struct TapeLevels {
@@ -28,10 +17,12 @@ struct TapeLevels {
   Level chest, waist, hip;
   double crotch_y = 0, armpit_y = 0;
 };
-// Torso: the section's line of the largest area. Crotch: the highest section with two lines of like area. Armpit: the
-// lowest section above where the torso's girth grows by 8 % within 2 cm (the arms join it). Waist: least girth in the
-// middle 70 % between them; hip: most between crotch and waist; chest: most from halfway between waist and armpit to 2
-// % of the stature below the armpit. Girths are smoothed over 5 cm. Absent where the body is nothing of the kind.
+// Measured on the trunk alone, without arms that touch it. Crotch: the highest level where the body is much thinner
+// between the thighs than in them, so that a web between them does not move it. Armpit: just below where an arm's joint
+// is half as thick as the trunk. Waist: least girth over the middle 30-70 % between the two, least of all where people
+// have it: a belly does not drive it to chest or hips. Hip: largest girth in the lower half from crotch to waist.
+// Chest: largest girth from halfway between waist and armpit to 73 % of the stature, but below the armpit. Girths are
+// smoothed over 5 cm for the search only. Absent where the body is nothing of the kind.
 std::optional<TapeLevels> tape_levels(const Mesh& body);
 
 // Tape girth of a garment round the torso at a level: hull of the section's line that goes round the torso's centre (by

@@ -17,7 +17,7 @@ BodyModel frame_to_frame(const DepthScan& scan, const SensorCalibration& calibra
                          const FrameToFrameParams& params) {
   const ScanFrames frames = checked_frames(scan, calibration, params.scan);
   const Projector projector(frames.first_usable().camera);
-  return fuse_tracked(frames, track_odometry(frames, projector), calibration, params.scan);
+  return fuse_tracked(scan, frames, track_odometry(frames, projector), calibration, params.scan);
 }
 
 const Fuse::Variant variant{"frame_to_frame", frame_to_frame};

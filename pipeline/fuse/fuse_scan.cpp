@@ -132,8 +132,8 @@ ScanFrames checked_frames(const DepthScan& scan, const SensorCalibration& calibr
   return frames;
 }
 
-BodyModel fuse_tracked(const ScanFrames& frames, const Track& track, const SensorCalibration& calibration,
-                       const FuseScanOptions& options) {
+BodyModel fuse_tracked(const DepthScan& scan, const ScanFrames& frames, const Track& track,
+                       const SensorCalibration& calibration, const FuseScanOptions& options) {
   constexpr int kLeastObservations = 3, kSurroundingsStride = 5;
   BodyModel model;
   const auto floor = floor_plane(frames, track);
@@ -142,8 +142,9 @@ BodyModel fuse_tracked(const ScanFrames& frames, const Track& track, const Senso
   VolumeRegion region;
   region.radius_m = options.region_radius_m;
   const BlockVolume volume(frames, calibration.ir, model.model_from_frame, track.tracked, region, options.volume);
-  const PointCloud body = body_points(volume.surface_points(kLeastObservations), 0, 0, options.surface);
-  model.body = closed_body(body, options.surface);
+  const PointCloud body = body_points(volume.surface_points(kLeastObservations), 0, 0, options.points);
+  const ScanViews views{scan, calibration, model.model_from_frame, track.tracked};
+  model.body = closed_body(body, options.surface, views);
   model.surroundings = thinned(scattered_points(frames, model.model_from_frame, track.tracked, kSurroundingsStride));
   shift(model, -trunk_axis(body));
   for (std::size_t i = 0; i < track.tracked.size(); ++i)

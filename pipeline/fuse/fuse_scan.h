@@ -1,6 +1,7 @@
 #pragma once
 #include "pipeline/fuse/block_volume.h"
-#include "pipeline/fuse/body_surface.h"
+#include "pipeline/fuse/body_points.h"
+#include "pipeline/fuse/closed_body.h"
 #include "pipeline/fuse/fuse.h"
 #include "pipeline/fuse/track.h"
 
@@ -12,7 +13,8 @@ struct FuseScanOptions {
   double max_depth_m = 4.5;
   double region_radius_m = 0.85;
   VolumeOptions volume;
-  BodySurfaceOptions surface;
+  BodyPointsOptions points;
+  ClosedBodyOptions surface;
 };
 
 template <class V>
@@ -24,16 +26,18 @@ void fuse_scan_fields(V& v, FuseScanOptions& p) {
   v("voxel_m", p.volume.voxel_m, 0.002, 0.02, "m", "edge of one voxel");
   v("truncation_m", p.volume.truncation_m, 0.004, 0.08, "m", "distances are cut at this");
   v("min_cosine", p.volume.min_cosine, 0.1, 0.9, "", "least cosine between surface normal and line of sight");
-  v("floor_cut_m", p.surface.floor_cut_m, 0.0, 0.05, "m", "points lower than this belong to the floor");
-  v("gap_m", p.surface.gap_m, 0.005, 0.05, "m", "points farther apart than this are different things");
+  v("floor_cut_m", p.points.floor_cut_m, 0.0, 0.05, "m", "points lower than this belong to the floor");
+  v("gap_m", p.points.gap_m, 0.005, 0.05, "m", "points farther apart than this are different things");
   v("poisson_depth", p.surface.poisson_depth, 6, 10, "", "depth of the octree of the closed surface");
+  v("least_views", p.surface.free_space.least_views, 1, 1000, "",
+    "frames that saw through a place inside the closed surface, for it to be empty");
 }
 
 // Throws InputError when the scan has fewer than ten frames with enough depth or the images do not fit the calibration.
 ScanFrames checked_frames(const DepthScan& scan, const SensorCalibration& calibration, const FuseScanOptions& options);
 
 // Model frame from poses: gravity from the floor, then the volume, the body and its surroundings.
-BodyModel fuse_tracked(const ScanFrames& frames, const Track& track, const SensorCalibration& calibration,
-                       const FuseScanOptions& options);
+BodyModel fuse_tracked(const DepthScan& scan, const ScanFrames& frames, const Track& track,
+                       const SensorCalibration& calibration, const FuseScanOptions& options);
 
 }  // namespace dressform

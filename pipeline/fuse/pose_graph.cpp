@@ -29,7 +29,7 @@ BodyModel pose_graph(const DepthScan& scan, const SensorCalibration& calibration
   const GlobalAlignment all = align_all(frames, projector, pairs, track.world_from_frame, gates, params.iterations);
   track.world_from_frame = all.world_from_frame;
   track.residual_rms_m = all.residual_rms_m;
-  return fuse_tracked(frames, track, calibration, params.scan);
+  return fuse_tracked(scan, frames, track, calibration, params.scan);
 }
 
 const Fuse::Variant variant{"pose_graph", pose_graph};

@@ -1,6 +1,4 @@
-#include "pipeline/fuse/body_surface.h"
-
-#include <tbb/parallel_for.h>
+#include "pipeline/fuse/body_points.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +6,6 @@
 #include <cstdint>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
-
-#include "pipeline/common/lattice.h"
-#include "pipeline/common/mesh_query.h"
-#include "pipeline/common/mesh_tidy.h"
-#include "pipeline/common/poisson.h"
 
 namespace dressform {
 namespace {
@@ -54,90 +47,9 @@ PointCloud subset(const PointCloud& cloud, const std::vector<int>& kept) {
   return result;
 }
 
-Mesh largest_component(const Mesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const auto& t : mesh.triangles)
-    for (const int k : {1, 2}) {
-      const int a = root(t[0]), b = root(t[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  std::vector<int> count(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) ++count[root(t[0])];
-  const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
-  Mesh result;
-  result.vertices = mesh.vertices;
-  for (const auto& t : mesh.triangles)
-    if (root(t[0]) == best) result.triangles.push_back(t);
-  return compacted(result);
-}
-
-bool ball_shaped(const Mesh& mesh) {
-  const Topology shape = topology(mesh);
-  return shape.closed() && shape.components == 1 && shape.euler() == 2;
-}
-
-// Signed distance to the mesh. Sides far from the mesh are told apart by what can be reached from the border without
-// coming near it; far outside, where nobody looks, the distance is a constant.
-std::vector<float> distance_field(const Mesh& mesh, const Lattice& lattice) {
-  std::vector<std::uint8_t> near(lattice.count(), 0);
-  const auto first_cell = [&](double c, int axis) {
-    return std::clamp(static_cast<int>(std::floor((c - lattice.origin[axis]) / lattice.step_m)) - 1, 0,
-                      lattice.size[axis] - 1);
-  };
-  for (const auto& t : mesh.triangles) {
-    const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Vector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    for (int z = first_cell(low.z(), 2); z <= std::min(first_cell(high.z(), 2) + 3, lattice.size[2] - 1); ++z)
-      for (int y = first_cell(low.y(), 1); y <= std::min(first_cell(high.y(), 1) + 3, lattice.size[1] - 1); ++y)
-        for (int x = first_cell(low.x(), 0); x <= std::min(first_cell(high.x(), 0) + 3, lattice.size[0] - 1); ++x)
-          near[lattice.index(x, y, z)] = 1;
-  }
-  const auto far = static_cast<float>(4 * lattice.step_m);
-  std::vector<float> field(lattice.count(), -far);
-  std::vector<std::size_t> front{0};  // the border is outside
-  field[0] = far;
-  while (!front.empty()) {
-    const auto [x, y, z] = lattice.cell(front.back());
-    front.pop_back();
-    for (int k = 0; k < 6; ++k) {
-      std::array<int, 3> to{x, y, z};
-      to[k / 2] += k % 2 ? 1 : -1;
-      if (to[k / 2] < 0 || to[k / 2] >= lattice.size[k / 2]) continue;
-      const std::size_t index = lattice.index(to[0], to[1], to[2]);
-      if (near[index] || field[index] > 0) continue;
-      field[index] = far;
-      front.push_back(index);
-    }
-  }
-  const MeshQuery query(mesh);
-  tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {
-    if (near[i])
-      field[i] = static_cast<float>(query.signed_distance(lattice.point(i)));
-    else if (field[i] < 0)
-      field[i] = -static_cast<float>(query.closest(lattice.point(i)).distance);
-  });
-  return field;
-}
-
-// The solid without handles and hollows nearest to what the mesh encloses.
-Mesh ball_like(const Mesh& mesh) {
-  constexpr double kStep = 0.007, kShortestEdge = 0.007;
-  Vector3d low = mesh.vertices.front(), high = low;
-  for (const auto& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Lattice lattice = make_lattice(low, high, 6 * kStep, kStep);
-  BallReport report;
-  const auto field = ball_field(lattice, distance_field(mesh, lattice), report);
-  return field.empty() ? Mesh{} : tidied(lattice_surface(lattice, field), kShortestEdge);
-}
-
 }  // namespace
 
-PointCloud body_points(const PointCloud& cloud, double axis_x, double axis_z, const BodySurfaceOptions& options) {
+PointCloud body_points(const PointCloud& cloud, double axis_x, double axis_z, const BodyPointsOptions& options) {
   constexpr double kNearAxis = 0.4;
   std::vector<int> above;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
@@ -193,16 +105,6 @@ PointCloud sole_points(const PointCloud& body, double spacing_m) {
       soles.normals.emplace_back(0, -1, 0);
     }
   return soles;
-}
-
-Mesh closed_body(const PointCloud& body, const BodySurfaceOptions& options) {
-  if (body.points.empty()) return {};
-  PointCloud all = body;
-  const PointCloud soles = sole_points(body, 0.005);
-  all.points.insert(all.points.end(), soles.points.begin(), soles.points.end());
-  all.normals.insert(all.normals.end(), soles.normals.begin(), soles.normals.end());
-  const Mesh surface = largest_component(poisson_surface(all, options.poisson_depth));
-  return surface.triangles.empty() || ball_shaped(surface) ? surface : ball_like(surface);
 }
 
 }  // namespace dressform

@@ -1,0 +1,17 @@
+#pragma once
+#include "pipeline/fuse/free_space.h"
+#include "scenes/mesh.h"
+
+namespace dressform {
+
+struct ClosedBodyOptions {
+  int poisson_depth = 8;
+  FreeSpaceOptions free_space;
+};
+
+// Closed, outward, one piece without handles: Poisson surface of the body's points (model frame) and of the soles under
+// them, less what the scan saw to be empty. Where something is taken out, or the surface is no ball, the ball-shaped
+// solid nearest to it. Empty for no points.
+Mesh closed_body(const PointCloud& body, const ClosedBodyOptions& options, const ScanViews& views);
+
+}  // namespace dressform
