@@ -139,7 +139,7 @@ class Studio {
     for (std::size_t i = 0; i < path.size(); ++i) {
       const std::string frame = name + "/" + std::to_string(i);
       const IrView view(world, rays, scene_.scan.calibration.ir, path[i], scene_.scan.calibration.depth_offset_m,
-                        false);
+                        false, stream_of("handheld"));
       result.depth_mm.push_back(measure(view, derived(seed_, frame)).depth_mm);
       meter_.step(frame);
     }
@@ -173,7 +173,7 @@ class Studio {
       result.color = render_color(world, lighting_, indirect, *optics.color, world_from_color(sensor), film, seed);
     }
     const IrView view(world, optics.ir, sensor.calibration.ir, sensor.world_from_sensor,
-                      sensor.calibration.depth_offset_m);
+                      sensor.calibration.depth_offset_m, true, stream_of(sensor.name.c_str()));
     const SensorFrame frame = measure(view, seed);
     result.depth_mm = frame.depth_mm;
     result.ir = frame.ir;

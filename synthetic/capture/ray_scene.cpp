@@ -172,6 +172,30 @@ Vector3f RayScene::normal(const RayPacket& rays, const HitPacket& hits, int lane
   return geometric.dot(direction) > 0 ? Vector3f(-normal) : normal;
 }
 
+void RayScene::normals(const RayPacket& rays, const HitPacket& hits, NormalPacket& out) const {
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const int id = hits.surface[lane];
+    Vector3f normal = id >= 0 ? hits.geometric_normal(lane) : Vector3f::Zero();
+    if (id >= 0 && surfaces_[id].smooth) {
+      const auto& normals = details_[id].normals;
+      const Vector3i& triangle = surfaces_[id].mesh.triangles[hits.triangle[lane]];
+      const float u = hits.u[lane], v = hits.v[lane];
+      normal = (1 - u - v) * normals[triangle[0]] + u * normals[triangle[1]] + v * normals[triangle[2]];
+    }
+    out.x[lane] = normal.x(), out.y[lane] = normal.y(), out.z[lane] = normal.z();
+  }
+  for (int lane = 0; lane < packet_size; ++lane) {
+    const float gx = hits.normal_x[lane], gy = hits.normal_y[lane], gz = hits.normal_z[lane];
+    const float x = out.x[lane], y = out.y[lane], z = out.z[lane];
+    const float length = std::sqrt(x * x + y * y + z * z);
+    // The side is the facet's: an interpolated normal may tip over at a silhouette.
+    const float facet_side = x * gx + y * gy + z * gz < 0 ? -1.0f : 1.0f;
+    const float away = gx * rays.direction_x[lane] + gy * rays.direction_y[lane] + gz * rays.direction_z[lane];
+    const float scale = (away * facet_side > 0 ? -1.0f : 1.0f) / (length > 1e-20f ? length : 1.0f);
+    out.x[lane] = scale * x, out.y[lane] = scale * y, out.z[lane] = scale * z;
+  }
+}
+
 Vector3f RayScene::albedo(int surface, int triangle, float u, float v, float footprint_m) const {
   const Details& details = details_[surface];
   const Vector3f& plain = surfaces_[surface].material.albedo_rgb;

@@ -2,12 +2,11 @@
 #include <memory>
 #include <vector>
 
+#include "synthetic/capture/ir_packet.h"
 #include "synthetic/capture/surface.h"
 #include "synthetic/capture/texture_pyramid.h"
 
 namespace dressform {
-
-constexpr int packet_size = 16;
 
 // Sixteen rays, e.g. of a 4 x 4 block of pixels. A ray hits between near_t and far_t, in units of its direction's
 // length. Lanes that were not set are not traced.
@@ -30,6 +29,10 @@ struct HitPacket {
   float u[packet_size], v[packet_size];  // barycentric weights of the triangle's 2nd and 3rd corner
   Vector3f geometric_normal(int lane) const { return {normal_x[lane], normal_y[lane], normal_z[lane]}; }
   float normal_x[packet_size], normal_y[packet_size], normal_z[packet_size];  // not of unit length
+};
+
+struct NormalPacket {
+  alignas(64) float x[packet_size], y[packet_size], z[packet_size];
 };
 
 // A hit, looked up: normals are of unit length and face the ray's origin.
@@ -59,6 +62,8 @@ class RayScene {
 
   // Unit normal, interpolated where the surface is smooth, facing the ray's origin.
   Vector3f normal(const RayPacket& rays, const HitPacket& hits, int lane) const;
+  // The same for all sixteen at once; zero where nothing is hit.
+  void normals(const RayPacket& rays, const HitPacket& hits, NormalPacket& out) const;
   // Albedo at 860 nm; a print shows in it faintly.
   float nir_albedo(const HitPacket& hits, int lane) const;
 

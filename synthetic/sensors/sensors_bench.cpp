@@ -94,6 +94,7 @@ void Measure(benchmark::State& state, const char* model) {
 }
 BENCHMARK_CAPTURE(Measure, ideal, "ideal")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(Measure, fankhauser, "fankhauser")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(Measure, kinect_v2, "kinect_v2")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace dressform

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "synthetic/capture/ir_view.h"
+#include "synthetic/sensors/tof_samples.h"
+
+namespace dressform {
+
+// Multipath of one bounce over a whole view: gathered on a coarse grid of pixels from coarse patches of what the
+// emitter lights, and interpolated. Surfaces outside the picture are outside the emitter's cone as well.
+class BounceMap {
+ public:
+  // strength: 0: none; 1: all surfaces are matt and send on what they reflect.
+  BounceMap(const IrView& view, double falloff, double strength);
+  // Terms of a row of pixels: tof::bounce_terms arrays of the view's width, one after the other.
+  void row(int y, float* terms) const;
+
+ private:
+  int width_, columns_ = 0, rows_ = 0;
+  std::vector<float> grid_;  // by row, term, column
+};
+
+}  // namespace dressform
