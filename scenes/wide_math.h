@@ -25,7 +25,7 @@ DRESSFORM_INLINE float absolute(float a) { return float_of_bits(bits_of_float(a)
 // Nearest whole number, |x| < 2^22.
 DRESSFORM_INLINE float nearest(float x) { return (x + 12582912.0f) - 12582912.0f; }
 
-// sin and cos of 2 pi x; errors below 3e-7, |x| < 2^22.
+// sin and cos of 2 pi x; errors below 1e-6, |x| < 2^22.
 DRESSFORM_INLINE void sincos_of_turns(float turns, float& sine, float& cosine) {
   const float half = 3.14159265358979f * (turns - nearest(turns));  // half the angle, within +-pi/2
   const float h = half * half;
