@@ -5,6 +5,7 @@
 #include "synthetic/garments/creases.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/garments/limb_outlines.h"
+#include "synthetic/garments/underarm.h"
 
 namespace dressform {
 namespace {
@@ -12,12 +13,14 @@ namespace {
 constexpr double kBack = -0.02;       // of the torso's middle and of the side seams, z in m
 constexpr double kClearance = 0.006;  // of the cloth off the body, m
 
-ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, double hem_y,
-                      Seed seed) {
+// Cloth stretched over the trunk and what is worn below.
+ClothRows taut_torso(const Body& body, const std::vector<Garment>& inner, double hem_y) {
+  return taut_rows(torso_frame(), hem_y - 0.05, body.landmarks.neck + 0.05, trunk_outline(body, inner, 0.002),
+                   [](double) { return Vector2d(kBack, 0); });
+}
+
+ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const ClothRows& taut, double hem_y, Seed seed) {
   const BodyLandmarks& m = body.landmarks;
-  const double low = hem_y - 0.05, high = m.neck + 0.05;
-  const ClothRows taut =
-      taut_rows(torso_frame(), low, high, trunk_outline(body, inner, 0.002), [](double) { return Vector2d(kBack, 0); });
   const ClothRows least = grown(taut, kClearance);
   // Cloth hangs from the chest and the shoulder blades (downwards is backwards along s) and rises freely to the neck.
   const ClothRows hung = smoothed(span_hollows(taut, 4.0, 0.10), 0.012, 0.06);
@@ -38,10 +41,14 @@ ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const std::vect
   return no_smaller(displaced(grown(hung, std::max(0.0, ease / (2 * M_PI))), height), least, 0.006);
 }
 
-ClothRows shirt_sleeve(const GarmentSpec& spec, const Body& body, double side, double cuff, Seed seed) {
-  const Tube::Frame frame = arm_frame(body, side);
-  const ClothRows taut =
-      taut_rows(frame, -0.055, cuff + 0.035, arm_outline(body, side), [](double) { return Vector2d(0, 0); });
+ClothRows taut_sleeve(const Body& body, double side, double cuff) {
+  return taut_rows(arm_frame(body, side), -0.055, cuff + 0.035, arm_outline(body, side),
+                   [](double) { return Vector2d(0, 0); });
+}
+
+ClothRows shirt_sleeve(const GarmentSpec& spec, const Body& body, const ClothRows& taut, double side, double cuff,
+                       Seed seed) {
+  const Tube::Frame& frame = taut.frame;
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.10, 6.0), 0.012, 0.08);
   const double elbow = (body.joints.at(side > 0 ? "ElbowLeft" : "ElbowRight") - frame.origin).norm();
@@ -65,17 +72,21 @@ ClothRows shirt_sleeve(const GarmentSpec& spec, const Body& body, double side, d
 GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   const BodyLandmarks& m = body.landmarks;
   const double hem_y = m.waist - spec.hem_below_waist_m;
-  const Tube torso = shirt_torso(spec, body, inner, hem_y, seed).tube();
+  const ClothRows trunk = taut_torso(body, inner, hem_y);
+  const Tube torso = shirt_torso(spec, body, trunk, hem_y, seed).tube();
   const double cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, 1);
   const double right_cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, -1);
-  const Tube left = shirt_sleeve(spec, body, 1, cuff, seed).tube();
-  const Tube right = shirt_sleeve(spec, body, -1, right_cuff, seed).tube();
+  const ClothRows left_arm = taut_sleeve(body, 1, cuff), right_arm = taut_sleeve(body, -1, right_cuff);
+  const Tube left = shirt_sleeve(spec, body, left_arm, 1, cuff, seed).tube();
+  const Tube right = shirt_sleeve(spec, body, right_arm, -1, right_cuff, seed).tube();
+  const Underarm left_gap(trunk.tube(), left_arm.tube(), 1, cuff);
+  const Underarm right_gap(trunk.tube(), right_arm.tube(), -1, right_cuff);
 
   GarmentShape shape;
-  shape.field = [torso, left, right](const Vector3d& p) {
+  shape.field = right_gap.parted(left_gap.parted([torso, left, right](const Vector3d& p) {
     const double sleeve = p.x() > 0 ? left.field(p) : right.field(p);
     return smooth_union(torso.field(p), sleeve, 0.028);
-  };
+  }));
   const double reach =
       std::max(std::abs(left.point(left.s_max(), 0, 0).x()), std::abs(right.point(right.s_max(), 0, 0).x()));
   shape.box = {
@@ -85,9 +96,13 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
           -0.40),
       Vector3d(reach + 0.12, torso.s_max() + 0.02, 0.40)};
 
-  // Positive where a place belongs to the sleeve rather than the torso.
-  const auto sleeve_over_torso = [torso, left, right](const Vector3d& p) {
-    return torso.field(p) - (p.x() > 0 ? left.field(p) : right.field(p));
+  // Positive where a place belongs to the sleeve rather than the torso: by the cloth, and beside the gap by the body.
+  const auto sleeve_over_torso = [=](const Vector3d& p) {
+    const double by_cloth = torso.field(p) - (p.x() > 0 ? left.field(p) : right.field(p));
+    const Underarm& gap = p.x() > 0 ? left_gap : right_gap;
+    if (!gap.start_y()) return by_cloth;
+    const double t = std::clamp((*gap.start_y() - p.y()) / 0.02, 0.0, 1.0);
+    return by_cloth + t * (gap.nearer_to_arm(p) - by_cloth);
   };
   // Round neck: half an ellipse seen from the front, deep there and shallow at the back.
   const double size = m.stature / 1.75, middle_y = m.neck + 0.020, half_width = 0.104 * size;

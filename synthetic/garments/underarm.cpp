@@ -1,0 +1,37 @@
+#include "synthetic/garments/underarm.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dressform {
+namespace {
+
+constexpr double kLayer = 0.0065;     // each side's cloth stays this far off the body, m
+constexpr double kHalfGap = 0.008;    // between the two layers where there is room, m
+constexpr double kLeastRoom = 0.026;  // between arm and trunk for both layers and a gap, m
+constexpr double kLeastSide = 0.02;   // the shortest inner side of a sleeve, m
+constexpr double kSlope = 0.5;        // at which the gap opens downwards
+
+}  // namespace
+
+Underarm::Underarm(const Tube& trunk, const Tube& arm, double side, double cuff_s)
+    : trunk_(trunk), arm_(arm), side_(side) {
+  const auto inner = [&](double s) { return arm_.point(s, M_PI, arm_.radius(s, M_PI)); };
+  double s = cuff_s;
+  for (; s > 0 && trunk_.field(inner(s)) >= kLeastRoom;) s -= 0.004;
+  if (inner(s).y() - inner(cuff_s).y() >= kLeastSide) start_y_ = inner(s).y();
+}
+
+Field Underarm::parted(const Field& field) const {
+  if (!start_y_) return field;
+  return [field, trunk = trunk_, arm = arm_, side = side_, start_y = *start_y_](const Vector3d& p) {
+    const double whole = field(p);
+    if (p.x() * side < 0 || whole > 0.02) return whole;
+    const double to_trunk = trunk.field(p), to_arm = arm.field(p);
+    const double gap = std::min(
+        {std::min(to_trunk, to_arm) - kLayer, kHalfGap - std::abs(to_trunk - to_arm) / 2, kSlope * (start_y - p.y())});
+    return smooth_intersection(whole, gap, 0.004);
+  };
+}
+
+}  // namespace dressform
