@@ -21,6 +21,7 @@ template <class V>
 void fields(V& v, LimbSplineParams& p) {
   v("knots", p.fit.knots, 12, 360, "", "knots of a rim's spline");
   v("smoothness", p.fit.smoothness, 1e-4, 100.0, "", "weight of a rim's second differences against the mask edges");
+  v("flatness", p.fit.flatness, 0.0, 100.0, "", "weight of a rim's deviation from a flat cut through the limb");
   v("first_smoothness", p.fit.first_smoothness, 1e-4, 1e6, "", "the same in the first round");
   v("first_scale_m", p.fit.first_scale_m, 0.005, 0.3, "m", "scale of the robust weights in the first round");
   v("last_scale_m", p.fit.last_scale_m, 0.001, 0.1, "m", "scale of the robust weights in the last round");

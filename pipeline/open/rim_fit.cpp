@@ -2,12 +2,18 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+
+#include "scenes/random.h"
 
 namespace dressform {
 namespace {
 
+const std::uint64_t kStream = stream_of("flat cut");
 constexpr double kTension = 1.0;  // of first differences: angles without samples are bridged without swinging out
 
 struct Place {
@@ -22,28 +28,13 @@ Place place(double angle, int count) {
   return {knot, at - knot};
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
-// Median of each sector of 30 degrees, and then of these: a large sector full of samples counts once.
-double typical(const std::vector<RimSample>& samples) {
-  std::vector<std::vector<double>> sectors(12);
-  for (const RimSample& s : samples) sectors[place(s.angle, 12).knot].push_back(s.along);
-  std::vector<double> medians;
-  for (const auto& sector : sectors)
-    if (!sector.empty()) medians.push_back(median(sector));
-  return median(medians);
-}
-
 double tukey(double residual, double scale) {
   const double u = residual / (4.685 * scale);
   return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
 }
 
 Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::VectorXd& weights, double smoothness,
-                      int count) {
+                      double flatness, const FlatCut& flat, int count) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   // Weights are brought to a mean of one per covered knot, so that the smoothness means the same for any density.
@@ -58,10 +49,12 @@ Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::Vector
     normal(a, b) += w * wa * wb;
     normal(b, a) += w * wa * wb;
     normal(b, b) += w * wb * wb;
-    right[a] += w * wa * samples[i].along;
-    right[b] += w * wb * samples[i].along;
+    const double off = samples[i].along - flat.at(samples[i].angle);
+    right[a] += w * wa * off;
+    right[b] += w * wb * off;
   }
   for (int i = 0; i < count; ++i) {
+    normal(i, i) += flatness;
     const int at[3] = {i, (i + 1) % count, (i + 2) % count};
     const double second[3] = {1, -2, 1}, first[3] = {1, -1, 0};
     for (int r = 0; r < 3; ++r)
@@ -71,7 +64,87 @@ Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::Vector
   return normal.ldlt().solve(right);
 }
 
+constexpr int kParts = 24;  // of the turn, one vote each
+constexpr int kTrials = 600;
+constexpr double kMostTilt_m = 0.08;
+constexpr double kTiltPrice = 40;  // votes per metre of tilt: small against a vote unless little is seen
+
+double votes(const std::vector<std::vector<RimSample>>& parts, const FlatCut& cut, double scale) {
+  double sum = -kTiltPrice * std::hypot(cut.tilt_cos, cut.tilt_sin);
+  for (const auto& part : parts) {
+    double most = 0, total = 0;
+    for (const RimSample& s : part) {
+      const double w = s.weight * tukey(s.along - cut.at(s.angle), scale / 2);
+      most = std::max(most, w);
+      total += w;
+    }
+    sum += std::min(1.0, total) * (most > 0 ? 1 : 0);
+  }
+  return sum;
+}
+
+// Through three samples; absent where they lie too close together or the cut would be steep.
+std::optional<FlatCut> through(const RimSample& a, const RimSample& b, const RimSample& c) {
+  Eigen::Matrix3d m;
+  Eigen::Vector3d right(a.along, b.along, c.along);
+  int row = 0;
+  for (const RimSample* s : {&a, &b, &c}) m.row(row++) << 1, std::cos(s->angle), std::sin(s->angle);
+  if (std::abs(m.determinant()) < 0.2) return {};
+  const Eigen::Vector3d x = m.inverse() * right;
+  const FlatCut cut{x[0], x[1], x[2]};
+  if (!(std::hypot(cut.tilt_cos, cut.tilt_sin) <= kMostTilt_m)) return {};
+  return cut;
+}
+
+// Least squares over the samples near the cut, each part of the turn counting once, with a small price on tilt.
+FlatCut refined(const std::vector<std::vector<RimSample>>& parts, const FlatCut& cut, double scale) {
+  Eigen::Matrix3d normal = Eigen::Vector3d(1e-9, 0.02, 0.02).asDiagonal();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const auto& part : parts) {
+    double total = 0;
+    for (const RimSample& s : part) total += s.weight * tukey(s.along - cut.at(s.angle), scale);
+    if (total <= 1e-9) continue;
+    for (const RimSample& s : part) {
+      const double w = s.weight * tukey(s.along - cut.at(s.angle), scale) / std::max(1.0, total);
+      const Eigen::Vector3d row(1, std::cos(s.angle), std::sin(s.angle));
+      normal += w * row * row.transpose();
+      right += w * s.along * row;
+    }
+  }
+  const Eigen::Vector3d x = normal.ldlt().solve(right);
+  return {x[0], x[1], x[2]};
+}
+
 }  // namespace
+
+double FlatCut::at(double angle) const { return middle + tilt_cos * std::cos(angle) + tilt_sin * std::sin(angle); }
+
+FlatCut fit_flat_cut(const std::vector<RimSample>& samples, double scale_m) {
+  if (samples.empty()) return {};
+  std::vector<std::vector<RimSample>> parts(kParts);
+  for (const RimSample& s : samples) parts[place(s.angle, kParts).knot].push_back(s);
+  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); }), parts.end());
+  FlatCut best;
+  double most = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](const FlatCut& cut) {
+    const double score = votes(parts, cut, scale_m);
+    if (score <= most) return;
+    most = score;
+    best = cut;
+  };
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kTrials);
+  for (std::size_t i = 0; i < samples.size(); i += stride) consider({samples[i].along, 0, 0});
+  for (int trial = 0; trial < kTrials && parts.size() >= 3; ++trial) {
+    const RimSample* picked[3];
+    for (int k = 0; k < 3; ++k) {
+      const auto& part = parts[static_cast<std::size_t>(uniform(0, kStream, 6 * trial + 2 * k) * parts.size())];
+      picked[k] = &part[static_cast<std::size_t>(uniform(0, kStream, 6 * trial + 2 * k + 1) * part.size())];
+    }
+    if (const auto cut = through(*picked[0], *picked[1], *picked[2])) consider(*cut);
+  }
+  for (int round = 0; round < 5; ++round) best = refined(parts, best, scale_m);
+  return best;
+}
 
 double RimCurve::at(double angle) const {
   if (knots.empty()) return 0;
@@ -87,7 +160,9 @@ RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& para
   RimCurve curve;
   if (samples.empty()) return curve;
   const int count = params.knots;
-  curve.knots.assign(count, typical(samples));
+  const FlatCut flat = fit_flat_cut(samples, params.last_scale_m);
+  const auto knot_angle = [count](int i) { return -M_PI + 2 * M_PI * i / count; };
+  for (int i = 0; i < count; ++i) curve.knots.push_back(flat.at(knot_angle(i)));
   Eigen::VectorXd weights(samples.size());
   for (int round = 0; round < params.rounds; ++round) {
     const double part = params.rounds > 1 ? static_cast<double>(round) / (params.rounds - 1) : 1;
@@ -96,8 +171,8 @@ RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& para
       weights[i] = samples[i].weight * tukey(samples[i].along - curve.at(samples[i].angle), scale);
     if (weights.sum() < 1e-9) break;
     const double smoothness = params.first_smoothness * std::pow(params.smoothness / params.first_smoothness, part);
-    const Eigen::VectorXd solution = solve(samples, weights, smoothness, count);
-    curve.knots.assign(solution.data(), solution.data() + count);
+    const Eigen::VectorXd off = solve(samples, weights, smoothness, params.flatness, flat, count);
+    for (int i = 0; i < count; ++i) curve.knots[i] = flat.at(knot_angle(i)) + off[i];
   }
   std::vector<char> covered(36, 0);
   double squares = 0;

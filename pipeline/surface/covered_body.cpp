@@ -11,7 +11,8 @@ constexpr double kEndPart = 0.0005;  // of the points (and four at least) may li
 constexpr int kTubeSides = 72;
 constexpr double kTubeStep_m = 0.02;
 constexpr double kForkSeam_m = 0.02;   // legs come apart this far below the crotch
-constexpr double kPastCuff_m = 0.025;  // an arm comes off the trunk this far past the cuff
+constexpr double kPastCuff_m = 0.025;  // an arm comes off the trunk this far past the cuff at the latest ...
+constexpr double kArmSeam_m = 0.02;    // ... and this far below the armpit at the earliest
 constexpr double kBeyond_m = 0.04;     // body kept past the caps, so that the surface runs straight up to them
 
 // The least value when a few strays are left out.
@@ -172,6 +173,29 @@ Mesh only(const Mesh& mesh, const std::vector<bool>& kept) {
   return compacted(part);
 }
 
+// How far down the arm points bridge it with the trunk, as cloth round the armhole does: Limb::along of the last such
+// place. Below it, sleeve and trunk are two layers.
+double bridged_along(const std::vector<Vector3d>& points, const MeshQuery& naked, const BodyLimbs& limbs, int side,
+                     double cuff_along) {
+  constexpr double kBin_m = 0.01, kMiddle_m = 0.006, kReach_m = 0.08;
+  constexpr std::size_t kFewest = 3;
+  const BodyPart part = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
+  std::vector<bool> of_arm(limbs.triangle_parts.size()), of_rest = of_arm;
+  for (std::size_t i = 0; i < of_arm.size(); ++i) of_rest[i] = !(of_arm[i] = limbs.triangle_parts[i] == part);
+  const MeshQuery arm(only(naked.mesh(), of_arm)), rest(only(naked.mesh(), of_rest));
+  std::vector<std::size_t> between(std::max(1, static_cast<int>(cuff_along / kBin_m) + 1), 0);
+  for (const Vector3d& p : points) {
+    const double along = limbs.arm(side)->along(p);
+    if (along < 0 || along >= cuff_along) continue;
+    const double to_arm = arm.closest(p, kReach_m).distance, to_rest = rest.closest(p, kReach_m).distance;
+    if (std::isfinite(to_arm) && std::isfinite(to_rest) && std::abs(to_arm - to_rest) < 2 * kMiddle_m)
+      ++between[static_cast<std::size_t>(along / kBin_m)];
+  }
+  std::size_t last = 0;
+  while (last < between.size() && between[last] >= kFewest) ++last;
+  return kBin_m * static_cast<double>(last);
+}
+
 }  // namespace
 
 GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud, const MeshQuery& naked,
@@ -201,11 +225,25 @@ GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud
   for (int side = 0; side < 2; ++side) {
     extent.has_arm[side] = limbs.arm(side) && garment == "top";
     extent.arm_along[side] = arms[side].size() < 20 ? 0 : upper_end(arms[side]);
+    extent.arm_free_along[side] = extent.arm_along[side] + kPastCuff_m;
+    if (extent.has_arm[side])
+      extent.arm_free_along[side] =
+          std::min(extent.arm_free_along[side],
+                   kArmSeam_m + bridged_along(cloud.points, naked, limbs, side, extent.arm_along[side]));
     extent.leg_bottom_y[side] = legs[side].size() < 20 ? extent.bottom_y : lower_end(legs[side]);
   }
   extent.forked = garment == "bottom" && goes_round_each_leg(around_legs, limbs, extent.bottom_y);
   return extent;
 }
+
+namespace {
+
+// Height of an arm's axis at Limb::along, or of its root if that is lower.
+double lowest_of_arm(const Limb& arm, double along) {
+  return std::min(arm.root.y(), arm.root.y() + arm.direction.y() * along);
+}
+
+}  // namespace
 
 CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment,
                          const GarmentExtent& extent, double margin_m)
@@ -229,7 +267,7 @@ CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const s
     const Limb& limb = *limbs.arm(side);
     forks_.push_back({part_is([arm](BodyPart part) { return part == arm; }),
                       part_is([arm](BodyPart part) { return part != arm; }),
-                      limb.root + limb.direction * (extent.arm_along[side] + kPastCuff_m), limb.direction});
+                      limb.root + limb.direction * extent.arm_free_along[side], limb.direction});
   }
   if (extent.forked)
     forks_.push_back({part_is([](BodyPart part) { return part == BodyPart::left_leg; }),
@@ -243,7 +281,11 @@ CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const s
       first = false;
     }
   const double bottom = extent.forked ? std::min(extent.leg_bottom_y[0], extent.leg_bottom_y[1]) : extent.bottom_y;
-  low_.y() = std::max(low_.y(), std::min(bottom, extent.bottom_y) - margin_m);
+  double lowest = std::min(bottom, extent.bottom_y) - margin_m;
+  for (int side = 0; side < 2; ++side)  // long sleeves reach below the hem
+    if (extent.has_arm[side])
+      lowest = std::min(lowest, lowest_of_arm(*limbs.arm(side), extent.arm_along[side] + margin_m) - margin_m);
+  low_.y() = std::max(low_.y(), lowest);
   high_.y() = std::min(high_.y(), extent.top_y + margin_m);
 }
 

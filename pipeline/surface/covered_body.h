@@ -12,11 +12,12 @@ namespace dressform {
 // How far a garment reaches along the body, judged by where its points are. A little beyond these ends the closed
 // surface is capped.
 struct GarmentExtent {
-  double top_y = 0, bottom_y = 0;             // neck or waist; hem or ankles
-  std::array<bool, 2> has_arm{false, false};  // left, right
-  std::array<double, 2> arm_along{0, 0};      // Limb::along of the cuffs
-  std::array<double, 2> leg_bottom_y{0, 0};   // left, right
-  bool forked = false;                        // a tube round each leg; else one round both
+  double top_y = 0, bottom_y = 0;              // neck or waist; hem or ankles
+  std::array<bool, 2> has_arm{false, false};   // left, right
+  std::array<double, 2> arm_along{0, 0};       // Limb::along of the cuffs
+  std::array<double, 2> arm_free_along{0, 0};  // and of where sleeve and trunk come apart
+  std::array<double, 2> leg_bottom_y{0, 0};    // left, right
+  bool forked = false;                         // a tube round each leg; else one round both
 };
 
 // `garment`: "top" (may have sleeves, never forked) or "bottom" (no sleeves).
@@ -37,7 +38,7 @@ class CoveredBody {
   // Distance beyond the ends of the garment plus the margin: positive there, negative within.
   double beyond_ends(const Vector3d& point) const;
 
-  // How far the point is from the middle between an arm and the trunk beyond the cuff, or between the legs below the
+  // How far the point is from the middle between an arm and the trunk below the armhole, or between the legs below the
   // crotch: zero half way, positive elsewhere; infinity above, or where that is more than `bound_m`. What touches there
   // is two sheets, and has to come apart for the ends to be cut off one by one.
   double from_crevice(const Vector3d& point, double bound_m) const;

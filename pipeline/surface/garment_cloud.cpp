@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <nanoflann.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "pipeline/common/color_mapping.h"
 
 namespace dressform {
 namespace {
 
+constexpr double kEndSigma_px = 1.5;  // of the plane that pixels at the end of the cloth have to lie on
 constexpr double kMadeUpWeight = 0.15;
 constexpr double kAboveFloor_m = 0.03;   // lower points may be the floor
 constexpr double kAtAnkles_m = 0.10;     // farthest off the legs that depth without colour counts as cloth
@@ -58,8 +60,10 @@ struct LocalPlane {
   double depth_mm = 0;
 };
 
-// Plane through the garment's points around a pixel, weighted by a Gaussian in the image.
-LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y, double sigma_px, double jump_mm) {
+// Plane through the garment's points around a pixel, weighted by a Gaussian in the image; with or without its own
+// point.
+LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y, double sigma_px, double jump_mm,
+                     bool with_pixel = true) {
   LocalPlane plane;
   const double z0 = depth_mm.at<float>(y, x);
   Vector3d mean = Vector3d::Zero();
@@ -71,7 +75,7 @@ LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y,
     for (int u = std::max(0, x - reach); u <= std::min(depth_mm.cols - 1, x + reach); ++u) {
       const double z = depth_mm.at<float>(v, u);
       const int far = std::max(std::abs(u - x), std::abs(v - y));
-      if (z <= 0 || std::abs(z - z0) > jump_mm * std::max(1, far)) continue;
+      if (z <= 0 || std::abs(z - z0) > jump_mm * std::max(1, far) || (far == 0 && !with_pixel)) continue;
       const cv::Vec2f& ray = rays.at<cv::Vec2f>(v, u);
       const Vector3d p(ray[0] * z, ray[1] * z, z);
       const double w = std::exp(-0.5 * ((u - x) * (u - x) + (v - y) * (v - y)) / (sigma * sigma));
@@ -79,7 +83,7 @@ LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y,
       mean += w * p;
       spread += w * p * p.transpose();
     }
-  if (sum < 3) return plane;
+  if (sum < (with_pixel ? 3 : 1.5)) return plane;
   mean /= sum;
   spread = spread / sum - mean * mean.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -91,8 +95,28 @@ LocalPlane fit_plane(const cv::Mat& depth_mm, const cv::Mat& rays, int x, int y,
   const double slope = plane.normal.dot(direction);
   if (!plane.normal.allFinite() || std::abs(slope) < 1e-3) return plane;
   plane.depth_mm = sigma_px > 0 ? plane.normal.dot(mean) / slope : z0;
-  plane.found = std::abs(plane.depth_mm - z0) < kLargestShift_mm;
+  plane.found = !with_pixel || std::abs(plane.depth_mm - z0) < kLargestShift_mm;
   return plane;
+}
+
+// The garment's depth without the pixels at the end of the cloth that have averaged it with what it lies on: a step of
+// a finger's breadth is too small to show as a jump, but takes the pixel off the plane of the cloth around it.
+cv::Mat without_mixed_ends(const cv::Mat& garment_mm, const DepthView& view, const GarmentCloudParams& params) {
+  const cv::Mat elsewhere = (garment_mm <= 0) & (view.depth_mm > 0);
+  cv::Mat beside;
+  cv::dilate(elsewhere, beside, cv::Mat());
+  cv::Mat inner = garment_mm.clone(), result = garment_mm.clone();
+  inner.setTo(0, beside);
+  for (int y = 0; y < inner.rows; ++y)
+    for (int x = 0; x < inner.cols; ++x) {
+      const float z = garment_mm.at<float>(y, x);
+      if (z <= 0 || !beside.at<uchar>(y, x)) continue;
+      inner.at<float>(y, x) = z;  // where the plane is wanted; it does not count
+      const LocalPlane plane = fit_plane(inner, view.rays, x, y, kEndSigma_px, params.jump_mm, false);
+      inner.at<float>(y, x) = 0;
+      if (plane.found && std::abs(plane.depth_mm - z) > params.mixed_mm) result.at<float>(y, x) = 0;
+    }
+  return result;
 }
 
 bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
@@ -133,8 +157,8 @@ cv::Mat extended_depth(const cv::Mat& garment_mm, const DepthView& view, const M
   return result;
 }
 
-void add_view(const FilledGarment& garment, const DepthView& view, const GarmentCloudParams& params,
-              GarmentCloud& result) {
+void add_view(FilledGarment garment, const DepthView& view, const GarmentCloudParams& params, GarmentCloud& result) {
+  garment.depth_mm = without_mixed_ends(garment.depth_mm, view, params);
   const cv::Mat bad = unreliable(garment.depth_mm, view.depth_mm, params.jump_mm);
   const cv::Mat color_pixels = view.sensor->color ? color_of_depth_pixels(garment.depth_mm, *view.sensor) : cv::Mat();
   for (int y = 0; y < garment.depth_mm.rows; ++y)

@@ -13,6 +13,7 @@ namespace dressform {
 struct GarmentCloudParams {
   double smooth_px = 1.2;        // sigma of the plane fit in the depth image; 0: depth as it is
   double jump_mm = 25;           // neighbouring depth pixels that differ by more are an edge
+  double mixed_mm = 6;           // pixels at the end of the cloth that are off its plane by more are dropped
   double least_cosine = 0.25;    // surface seen at a lower n.v is dropped
   double see_through_m = 0.03;   // a point this far in front of what another view sees is dropped
   double inside_body_m = 0.012;  // deepest point under the naked surface
@@ -27,6 +28,7 @@ template <class V>
 void fields(V& v, GarmentCloudParams& p) {
   v("smooth_px", p.smooth_px, 0.0, 4.0, "px", "sigma of the local plane fit that takes the noise off the depth");
   v("jump_mm", p.jump_mm, 5.0, 100.0, "mm", "neighbouring depth pixels that differ by more are an edge");
+  v("mixed_mm", p.mixed_mm, 1.0, 100.0, "mm", "pixels at the end of the cloth this far off its plane are dropped");
   v("least_cosine", p.least_cosine, 0.05, 0.9, "", "surface seen at a lower cosine to its normal is dropped");
   v("see_through_m", p.see_through_m, 0.01, 0.2, "m", "a point this far in front of what another view sees is dropped");
   v("inside_body_m", p.inside_body_m, 0.0, 0.1, "m", "deepest point kept under the naked surface");

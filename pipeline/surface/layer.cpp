@@ -23,6 +23,7 @@ struct LayerParams {
   int sweeps = 12;
   double margin_m = 0.05;
   double carve_m = 0.03;
+  double end_m = 0.03;
   double edge_m = 0.008;
   double gap_m = 0.006;
   int fewest_points = 300;
@@ -37,6 +38,7 @@ void fields(V& v, LayerParams& p) {
   v("sweeps", p.sweeps, 2, 200, "", "relaxation sweeps on every lattice of the pyramid");
   v("margin_m", p.margin_m, 0.01, 0.2, "m", "how far the closed surface runs on beyond the ends of the garment");
   v("carve_m", p.carve_m, 0.005, 0.2, "m", "space this far in front of what a view sees is empty");
+  v("end_m", p.end_m, 0.0, 0.2, "m", "this close to a garment's end, space that views look through stays as it is");
   v("edge_m", p.edge_m, 0.003, 0.05, "m", "edges of the mesh shorter than this are collapsed");
   v("gap_m", p.gap_m, 0.0, 0.05, "m", "cloth beneath another garment stays this far inside it where it is hidden");
   v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");
@@ -115,8 +117,10 @@ Space make_space(const CoveredBody& body, const PointCloud& cloud, const LayerPa
 }
 
 // Where the field lies inside but some view looks through: the surface has to give way there.
-void carve(const Space& space, const std::vector<DepthView>& views, const std::vector<float>& ease, double carve_m,
-           LatticeData& data) {
+// Near and beyond the ends of the garment it runs on where there is no cloth any more: views that look through there
+// say nothing, and would bend the cloth inwards up to its rim.
+void carve(const Space& space, const CoveredBody& body, const std::vector<DepthView>& views,
+           const std::vector<float>& ease, const LayerParams& params, LatticeData& data) {
   const float outside = static_cast<float>(0.7 * space.lattice.step_m);
   tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
     for (int y = 0; y < space.lattice.size[1]; ++y)
@@ -126,7 +130,8 @@ void carve(const Space& space, const std::vector<DepthView>& views, const std::v
         if (space.body_distance[at] - ease[at] > outside) continue;
         const Vector3d point = space.lattice.point(x, y, z);
         for (const DepthView& view : views)
-          if (seen_through_m(view, point) > carve_m) {
+          if (seen_through_m(view, point) > params.carve_m) {
+            if (body.beyond_ends(point) + params.margin_m > -params.end_m) break;
             data.value[at] = space.body_distance[at] - outside;
             data.weight[at] = std::max(data.weight[at], 0.5f);
             break;
@@ -192,7 +197,7 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
   LatticeData data = plane_distances(space.lattice, cloud, params.kernel_m, params.reach_m);
   for (std::size_t i = 0; i < data.value.size(); ++i) data.value[i] = space.body_distance[i] - data.value[i];
   std::vector<float> ease = diffuse(space.lattice, data, space.domain, params.stiffness, params.sweeps);
-  carve(space, views, ease, params.carve_m, data);
+  carve(space, body, views, ease, params, data);
   ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
 
   BallReport report;
