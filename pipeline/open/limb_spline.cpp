@@ -31,10 +31,12 @@ void fields(V& v, LimbSplineParams& p) {
   v("least_cosine", p.edges.least_cosine, 0.0, 0.9, "", "mask edges on surface seen at a lower n.v are outlines");
   v("in_front_m", p.edges.in_front_m, 0.005, 0.2, "m", "something this much nearer hides the rim");
   v("goes_on_m", p.edges.goes_on_m, 0.0, 0.2, "m", "the closed surface has to go on this far beyond a rim");
+  v("least_rise", p.edges.least_rise, 0.0, 1.0, "", "part of the way out across a rim that has to lead along the limb");
   v("least_coverage", p.least_coverage, 0.0, 1.0, "", "part of a rim that must be seen for it to count as observed");
   v("shortest_edge_m", p.shortest_edge_m, 0.0005, 0.02, "m", "shorter edges that the cut leaves are collapsed");
 }
 
+constexpr double kShortEnd = 0.05;     // weight of an end of the points that is short of the mask edges' curve
 constexpr double kEarlyEnd_m = 0.015;  // points that end this much before the others of a rim were not seen further
 
 struct Scene {
@@ -97,10 +99,12 @@ std::vector<RimSample> support_ends(const PointCloud& support, const Opening& op
 }
 
 // The mask edges, and the ends of the points in sectors without edges: ankles are often below the colour picture, where
-// only the depth tells how far the cloth goes.
-std::vector<RimSample> completed(std::vector<RimSample> edges, const std::vector<RimSample>& ends) {
+// only the depth tells how far the cloth goes. It goes at least as far as the points; ends short of `rough`, the curve
+// of the edges alone, say little, because depth does not tell cloth that lies close from skin.
+std::vector<RimSample> completed(std::vector<RimSample> edges, const RimCurve& rough, std::vector<RimSample> ends) {
   const std::size_t seen = edges.size();
-  for (const RimSample& end : ends) {
+  for (RimSample& end : ends) {
+    if (end.along < rough.at(end.angle)) end.weight *= kShortEnd;
     bool covered = false;
     for (std::size_t i = 0; i < seen && !covered; ++i)
       covered = std::abs(std::remainder(edges[i].angle - end.angle, 2 * M_PI)) < 0.15 &&
@@ -123,7 +127,8 @@ PlacedRim place_rim(const Opening& opening, const std::vector<RimSample>& edges,
   rim.curve = fit_rim(edges, params.fit);
   const bool ankle = opening.name == "left_ankle" || opening.name == "right_ankle";
   if (rim.curve.coverage >= params.least_coverage) {
-    if (ankle) rim.curve = fit_rim(completed(edges, support_ends(closed.support, opening, scene)), params.fit);
+    if (ankle)
+      rim.curve = fit_rim(completed(edges, rim.curve, support_ends(closed.support, opening, scene)), params.fit);
     return rim;
   }
   rim.observed = false;

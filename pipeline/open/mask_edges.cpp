@@ -61,9 +61,14 @@ bool hidden(const DepthView& view, const Vector3d& point, double in_front_m) {
   return z > 0 && z / 1000.0 < p.z() - in_front_m;
 }
 
+struct RimPoint {
+  Vector3d point, beyond;  // on the closed surface at the edge, and a little outside it
+  double cosine = 0;
+};
+
 // The point of the closed surface at an edge, if the edge is the end of the cloth.
-std::optional<std::pair<Vector3d, double>> rim_point(const ColorView& view, const Edge& edge, const MeshQuery& closed,
-                                                     const MeshQuery& naked, const MaskEdgeParams& params) {
+std::optional<RimPoint> rim_point(const ColorView& view, const Edge& edge, const MeshQuery& closed,
+                                  const MeshQuery& naked, const MaskEdgeParams& params) {
   const Vector3d ray = view.ray(edge.x, edge.y);
   const auto hit = closed.first_hit(view.centre, ray);
   if (!hit) return {};
@@ -79,7 +84,7 @@ std::optional<std::pair<Vector3d, double>> rim_point(const ColorView& view, cons
   if (body && body->distance < hit->distance - params.in_front_m) return {};
   if (body_beyond && body_beyond->distance < further->distance - params.in_front_m) return {};
   if (hidden(*view.depth, hit->point, 2 * params.in_front_m)) return {};
-  return std::make_pair(hit->point, cosine);
+  return RimPoint{hit->point, further->point, cosine};
 }
 
 }  // namespace
@@ -101,11 +106,13 @@ std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& se
       if (garment == Label::bottom && edge.beyond == Label::top) continue;
       const auto point = rim_point(color, edge, closed, naked, params);
       if (!point) continue;
-      const int triangle = naked.closest(point->first).triangle;
+      const int triangle = naked.closest(point->point).triangle;
       const BodyPart part = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
-      const Opening* opening = opening_near(openings, point->first, part, limbs);
+      const Opening* opening = opening_near(openings, point->point, part, limbs);
       if (!opening) continue;
-      samples[opening->name].push_back({opening->angle(point->first), opening->along(point->first), point->second});
+      const double along = opening->along(point->point), rise = opening->along(point->beyond) - along;
+      if (rise < params.least_rise * (point->beyond - point->point).norm()) continue;
+      samples[opening->name].push_back({opening->angle(point->point), along, point->cosine});
     }
   }
   return samples;

@@ -17,6 +17,7 @@ struct MaskEdgeParams {
   double least_cosine = 0.25;  // edges on surface seen at a lower n.v are outlines, not rims
   double in_front_m = 0.025;   // something this much nearer than the surface hides the rim
   double goes_on_m = 0.015;    // the closed surface has to go on this far beyond a rim
+  double least_rise = 0.5;     // ... mostly along the limb: across it, the edge is an outline
 };
 
 // Rim points of a garment, by opening: pixels where its mask ends although the closed surface goes on, thrown back on

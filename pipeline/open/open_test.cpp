@@ -94,6 +94,37 @@ TEST(RimFit, SlantedRimWithOutliersAndAGap) {
   EXPECT_LT(curve.residual_rms_m, 0.004);
 }
 
+TEST(RimFit, WhatIsHiddenGoesOnAsAFlatCut) {
+  std::vector<RimSample> samples;
+  const auto truth = [](double angle) { return 0.3 + 0.015 * std::cos(angle) - 0.01 * std::sin(angle); };
+  for (int i = 0; i < 600; ++i) {
+    const double angle = -M_PI + 2 * M_PI * i / 600.0;
+    const auto noise = normal4(6, 1, i);
+    if (std::abs(angle) < 1.2 || std::abs(angle) > 2.6) samples.push_back({angle, truth(angle) + 0.002 * noise[0], 1});
+    // The outline of the limb: many samples at all places along it, next to what is hidden.
+    if (angle > 1.2 && angle < 1.5)
+      for (int k = 0; k < 20; ++k) samples.push_back({angle, 0.01 * k + 0.05, 1});
+  }
+  const FlatCut flat = fit_flat_cut(samples, 0.008);
+  EXPECT_NEAR(flat.middle, 0.3, 0.002);
+  EXPECT_NEAR(flat.tilt_cos, 0.015, 0.002);
+  EXPECT_NEAR(flat.tilt_sin, -0.01, 0.003);
+  const RimCurve curve = fit_rim(samples, {});
+  for (double angle = -3; angle < 3.1; angle += 0.05) EXPECT_NEAR(curve.at(angle), truth(angle), 0.006) << angle;
+}
+
+TEST(RimFit, DeepVNeckIsFollowed) {
+  std::vector<RimSample> samples;
+  const auto truth = [](double angle) { return -0.09 - 0.08 * std::max(0.0, 1 - std::abs(angle) / 0.7); };
+  for (int i = 0; i < 500; ++i) {
+    const double angle = -M_PI + 2 * M_PI * i / 500.0;
+    samples.push_back({angle, truth(angle) + 0.002 * normal4(7, 1, i)[0], 1});
+  }
+  const RimCurve curve = fit_rim(samples, {});
+  for (double angle = -3; angle < 3.1; angle += 0.05)
+    EXPECT_NEAR(curve.at(angle), truth(angle), std::abs(angle) < 0.1 ? 0.012 : 0.005) << angle;
+}
+
 TEST(RimFit, NothingSeenIsNoCurve) {
   EXPECT_TRUE(fit_rim({}, {}).knots.empty());
   EXPECT_EQ(fit_rim({}, {}).coverage, 0);

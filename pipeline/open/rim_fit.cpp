@@ -37,9 +37,10 @@ Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::Vector
                       double flatness, const FlatCut& flat, int count) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-  // Weights are brought to a mean of one per covered knot, so that the smoothness means the same for any density.
+  // A knot's samples weigh one together, so that the smoothness means the same for any density. Those that have lost
+  // their robust weight count in the sum: where samples lie all along the limb, none is to be believed.
   std::vector<double> per_knot(count, 0);
-  for (std::size_t i = 0; i < samples.size(); ++i) per_knot[place(samples[i].angle, count).knot] += weights[i];
+  for (const RimSample& s : samples) per_knot[place(s.angle, count).knot] += s.weight;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Place p = place(samples[i].angle, count);
     const int a = p.knot, b = (p.knot + 1) % count;

@@ -25,7 +25,7 @@ struct RimFitParams {
   double smoothness = 0.3;        // weight of the curve's second differences against the samples, in the last round
   double flatness = 0.05;         // weight of its deviation from the flat cut
   double first_smoothness = 3e3;  // in the first round: next to a tilted circle
-  double first_scale_m = 0.06;    // Tukey's scale at the start ...
+  double first_scale_m = 0.04;    // Tukey's scale at the start ...
   double last_scale_m = 0.008;    // ... and at the end
   int rounds = 12;
 };

@@ -314,21 +314,20 @@ double CoveredBody::from_crevice(const Vector3d& point, double bound_m) const {
 }
 
 double CoveredBody::beyond_ends(const Vector3d& point) const {
-  double beyond = point.y() - extent_.top_y;
   double bottom = extent_.bottom_y;
   if (extent_.forked && point.y() < limbs_.crotch_y) {
     const Vector3d left = limbs_.left_leg->root, right = limbs_.right_leg->root;
     bottom = extent_.leg_bottom_y[(point - (left + right) / 2).dot(limbs_.left) > 0 ? 0 : 1];
   }
-  beyond = std::max(beyond, bottom - point.y());
+  const double beyond = std::max(point.y() - extent_.top_y, bottom - point.y());
   for (int side = 0; side < 2; ++side) {
     if (!extent_.has_arm[side]) continue;
-    const Limb& arm = *limbs_.arm(side);
-    const double past = arm.along(point) - extent_.arm_along[side];
-    if (past < -margin_m_ - kBeyond_m) continue;
+    const double past = limbs_.arm(side)->along(point) - extent_.arm_along[side];
+    if (past < -margin_m_ - kBeyond_m && point.y() > bottom) continue;
+    // A sleeve ends at its cuff, also where that is lower than the hem.
     const int triangle = naked_.closest(point).triangle;
-    const BodyPart part = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
-    if (triangle >= 0 && limbs_.triangle_parts[triangle] == part) beyond = std::max(beyond, past);
+    const BodyPart arm = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
+    if (triangle >= 0 && limbs_.triangle_parts[triangle] == arm) return past - margin_m_;
   }
   return beyond - margin_m_;
 }

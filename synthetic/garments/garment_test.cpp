@@ -127,6 +127,28 @@ const Outfit kOutfits[] = {
 INSTANTIATE_TEST_SUITE_P(Garments, Outfits, testing::ValuesIn(kOutfits),
                          [](const auto& info) { return std::string(info.param.name); });
 
+// Nowhere does a cuff run up into the sleeve or over to the trunk.
+TEST(Garment, CuffsGoRoundTheArmAlone) {
+  BodySpec spec;
+  spec.arm_angle_deg = 16;
+  const Body body = make_body(spec);
+  for (const double sleeve : {0.45, 1.0}) {
+    const Garment shirt = make_garment(garment("shirt", sleeve), body, {}, 1);
+    for (const TruthRim& rim : shirt.rims) {
+      if (rim.name != "left_cuff" && rim.name != "right_cuff") continue;
+      const std::string side = rim.name == "left_cuff" ? "Left" : "Right";
+      const Eigen::Vector3d shoulder = body.joints.at("Shoulder" + side), wrist = body.joints.at("Wrist" + side);
+      const Eigen::Vector3d axis = (wrist - shoulder).normalized();
+      double least = 1e9, most = -1e9;
+      for (const auto& p : rim.points) {
+        least = std::min(least, axis.dot(p - shoulder));
+        most = std::max(most, axis.dot(p - shoulder));
+      }
+      EXPECT_LT(most - least, 0.012) << rim.name << " of a sleeve of " << sleeve;
+    }
+  }
+}
+
 TEST(Garment, IsTheSameForTheSameSeed) {
   const Body body = make_body({});
   const GarmentSpec spec = garment("skirt", 0.4);
