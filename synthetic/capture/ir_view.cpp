@@ -61,16 +61,32 @@ void IrView::look_up(const RayPacket& rays, IrPacket& packet) const {
   }
 }
 
-void IrView::trace_block(int left, int top, IrPacket& packet) const {
-  RayPacket rays;
+// Rays from the packet's ideal coordinates, for its first `count` lanes.
+void IrView::aim(int count, const IrPacket& packet, RayPacket& rays) const {
   for (int lane = 0; lane < packet_size; ++lane) {
-    const int x = left + lane % block, y = top + lane / block;
-    packet.ideal_x[lane] = packet.ideal_y[lane] = 0;
-    if (x >= width() || y >= height()) continue;
-    const Vector2f& ideal = rays_.at(x, y);
-    packet.ideal_x[lane] = ideal.x(), packet.ideal_y[lane] = ideal.y();
-    rays.set(lane, position_, direction(ideal), near_m, far_m);
+    const float x = packet.ideal_x[lane], y = packet.ideal_y[lane];
+    rays.direction_x[lane] = rotation_(0, 0) * x + rotation_(0, 1) * y + rotation_(0, 2);
+    rays.direction_y[lane] = rotation_(1, 0) * x + rotation_(1, 1) * y + rotation_(1, 2);
+    rays.direction_z[lane] = rotation_(2, 0) * x + rotation_(2, 1) * y + rotation_(2, 2);
+    rays.origin_x[lane] = position_.x(), rays.origin_y[lane] = position_.y(), rays.origin_z[lane] = position_.z();
+    rays.near_t[lane] = near_m, rays.far_t[lane] = far_m;
+    rays.valid[lane] = lane < count ? -1 : 0;
   }
+}
+
+void IrView::trace_block(int left, int top, IrPacket& packet) const {
+  const bool inside = left + block <= width() && top + block <= height();
+  for (int lane = 0; lane < packet_size; ++lane) {
+    // The ray table has a margin of one pixel; lanes farther out than the picture repeat its last one.
+    const int x = left + lane % block, y = top + lane / block;
+    const Vector2f& ideal = inside ? rays_.at(x, y) : rays_.at(std::min(x, width()), std::min(y, height()));
+    packet.ideal_x[lane] = ideal.x(), packet.ideal_y[lane] = ideal.y();
+  }
+  RayPacket rays{RayPacket::Unset()};
+  aim(packet_size, packet, rays);
+  if (!inside)
+    for (int lane = 0; lane < packet_size; ++lane)
+      if (left + lane % block >= width() || top + lane / block >= height()) rays.valid[lane] = 0;
   look_up(rays, packet);
 }
 
@@ -88,14 +104,12 @@ std::vector<IrSample> IrView::first_hits() const {
 }
 
 void IrView::trace(const Vector2f* pixels, int count, IrPacket& packet) const {
-  RayPacket rays;
   for (int lane = 0; lane < packet_size; ++lane) {
-    packet.ideal_x[lane] = packet.ideal_y[lane] = 0;
-    if (lane >= count) continue;
-    const Vector2f ideal = rays_.at(pixels[lane].x(), pixels[lane].y());
+    const Vector2f ideal = lane < count ? rays_.at(pixels[lane].x(), pixels[lane].y()) : Vector2f(0, 0);
     packet.ideal_x[lane] = ideal.x(), packet.ideal_y[lane] = ideal.y();
-    rays.set(lane, position_, direction(ideal), near_m, far_m);
   }
+  RayPacket rays{RayPacket::Unset()};
+  aim(count, packet, rays);
   look_up(rays, packet);
 }
 

@@ -73,6 +73,7 @@ class IrView {
 
  private:
   void trace_block(int left, int top, IrPacket& packet) const;
+  void aim(int count, const IrPacket& packet, RayPacket& rays) const;
   void look_up(const RayPacket& rays, IrPacket& packet) const;
   Vector3f direction(const Vector2f& ideal) const;
   const RayScene& scene_;

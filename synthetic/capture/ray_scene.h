@@ -16,7 +16,9 @@ struct RayPacket {
   alignas(64) float near_t[packet_size], far_t[packet_size];
   alignas(64) int valid[packet_size];  // 0 or -1
 
-  RayPacket();
+  struct Unset {};
+  RayPacket();                  // no lane is set
+  explicit RayPacket(Unset) {}  // everything is still to be written
   void set(int lane, const Vector3f& origin, const Vector3f& direction, float near_t_, float far_t_);
   Vector3f origin(int lane) const { return {origin_x[lane], origin_y[lane], origin_z[lane]}; }
   Vector3f direction(int lane) const { return {direction_x[lane], direction_y[lane], direction_z[lane]}; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "synthetic/sensors/bounce_map.h"
 #include "synthetic/sensors/test_scenes.h"
 
 // The figures of sensors.md and of Fankhauser et al. 2015, one test a line.
@@ -262,6 +263,25 @@ TEST(KinectV2, ACornerLooksRoundBecauseOfBouncedLight) {
     const double longer_mm = depth(1, x) - depth(0, x);
     EXPECT_GT(longer_mm, 5) << x;
     EXPECT_LT(longer_mm, 80) << x;
+  }
+}
+
+TEST(KinectV2, BouncedLightInASphereIsThatOfTheBooks) {
+  // From the centre of a matt sphere: what bounces once lights all of it alike, albedo x cone / (4 pi) of the direct.
+  const RayScene scene = scene_of(surface(sphere_mesh({0, 0, 0}, 2, 200), 0.5f, true));
+  const Camera camera{512, 424, 366, 366, 255.5, 211.5, {}};
+  const RayTable rays(camera);
+  const IrView view(scene, rays, camera, Isometry3d::Identity(), 0);
+  const BounceMap map(view, 4, 1);
+  double cone = 0;
+  for (int y = 0; y < 424; ++y)
+    for (int x = 0; x < 512; ++x) cone += std::pow(1 + view.ideal(x, y).squaredNorm(), -1.5) / (366.0 * 366.0);
+  std::vector<float> terms(512 * tof::bounce_terms);
+  for (const int y : {0, 100, 211, 423}) {
+    map.row(y, terms.data());
+    for (const int x : {0, 200, 256, 511})
+      EXPECT_NEAR(terms[512 * (tof::bounce_terms - 1) + x], 0.5 * cone / (4 * M_PI) / 4,
+                  0.05 * 0.5 * cone / (16 * M_PI));
   }
 }
 

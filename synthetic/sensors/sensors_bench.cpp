@@ -2,10 +2,13 @@
 #include <embree3/rtcore.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "synthetic/capture/shapes.h"
 #include "synthetic/sensors/sensor_model.h"
+#include "synthetic/sensors/tof_decode.h"
 
 namespace dressform {
 namespace {
@@ -20,7 +23,7 @@ std::vector<RaySurface> stage() {
 }
 
 void report_rate(benchmark::State& state, double rays_per_iteration) {
-  state.counters["Mray/s"] =
+  state.counters["Mpixel/s"] =
       benchmark::Counter(rays_per_iteration * state.iterations() * 1e-6, benchmark::Counter::kIsRate);
 }
 
@@ -71,17 +74,18 @@ void BareEmbree(benchmark::State& state) {
 }
 BENCHMARK(BareEmbree)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// First hits with normals and albedo, on the given number of threads.
-void FirstHits(benchmark::State& state) {
+// What the sensor models ask for: depth, normal and albedo of every pixel, in packets. The ratio of its rate to the
+// bare loop's is what the house leaves of the ray caster.
+void DepthRays(benchmark::State& state) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, state.range(0));
   const RayScene scene(stage());
   const Camera camera = kinect();
   const RayTable table(camera);
   const IrView view(scene, table, camera, Isometry3d::Identity(), 0);
-  for (auto _ : state) benchmark::DoNotOptimize(view.first_hits());
+  for (auto _ : state) view.for_each_block([](int, int, const IrPacket& packet) { benchmark::DoNotOptimize(packet); });
   report_rate(state, 512 * 424);
 }
-BENCHMARK(FirstHits)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(DepthRays)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void Measure(benchmark::State& state, const char* model) {
   const RayScene scene(stage());
@@ -95,6 +99,35 @@ void Measure(benchmark::State& state, const char* model) {
 BENCHMARK_CAPTURE(Measure, ideal, "ideal")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(Measure, fankhauser, "fankhauser")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(Measure, kinect_v2, "kinect_v2")->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// The driver's half alone: a frame of phasors, one thread.
+void Decode(benchmark::State& state) {
+  constexpr int width = 512, height = 424;
+  std::vector<float> phasors(static_cast<std::size_t>(9) * width * height), out(9 * width), ideal(width, 0.1f);
+  for (std::size_t i = 0; i < phasors.size(); ++i) phasors[i] = i / (width * height) % 3 == 2 ? 50.0f : 0.707f;
+  const auto row = [&](int y) {
+    tof::PhasorRows::Row result;
+    for (int f = 0; f < tof::frequencies; ++f) {
+      const auto plane = [&](int p) {
+        return &phasors[(static_cast<std::size_t>(3 * f + p) * height + std::clamp(y, 0, height - 1)) * width];
+      };
+      result.cosine[f] = plane(0), result.sine[f] = plane(1), result.amplitude[f] = plane(2);
+    }
+    return result;
+  };
+  const auto part = [&](int i) { return &out[static_cast<std::size_t>(i) * width]; };
+  const tof::FilteredRow filtered{{part(0), part(1), part(2)}, {part(3), part(4), part(5)}, part(6)};
+  for (auto _ : state)
+    for (int y = 0; y < height; ++y) {
+      const tof::PhasorRows rows{row(y - 1), row(y), row(y + 1)};
+      tof::bilateral(rows, width, filtered);
+      tof::unwrap(filtered, rows, ideal.data(), ideal.data(), width, part(7), part(8));
+      benchmark::DoNotOptimize(out.data());
+      benchmark::ClobberMemory();
+    }
+  report_rate(state, width * height);
+}
+BENCHMARK(Decode)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace dressform

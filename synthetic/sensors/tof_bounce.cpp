@@ -19,9 +19,9 @@ DRESSFORM_WIDE void add_patch(const Patch& q, const float* __restrict x, const f
     const float square = dx * dx + dy * dy + dz * dz, distance = __builtin_sqrtf(square);
     const float arrives = wide::larger(0.0f, nx[i] * dx + ny[i] * dy + nz[i] * dz);
     const float leaves = wide::larger(0.0f, -(q.nx * dx + q.ny * dy + q.nz * dz));
-    // cos cos / d^2, softened within the size of the patch.
-    const float soft = square + q.area_m2;
-    const float light = q.weight * arrives * leaves / (soft * soft);
+    // cos cos / d^2, softened near the patch as for a disk of its area.
+    const float safe = wide::larger(square, 1e-6f);
+    const float light = q.weight * arrives * leaves / (safe * (safe + 0.318309886f * q.area_m2));
     const float extra_mm = 1000.0f * (q.from_emitter_m + distance - from_emitter_m[i]);
     float s, c;
     wide::sincos_of_turns(extra_mm * (1.0f / wavelength_mm[0]), s, c);

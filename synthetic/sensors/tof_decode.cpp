@@ -55,9 +55,11 @@ DRESSFORM_INLINE float depth_of_path(float path, float x, float y) {
   return along * (1.0f - emitter_x_mm * emitter_x_mm / square) / (1.0f - 2.0f * emitter_x_mm * x * along / square);
 }
 
-DRESSFORM_WIDE void unwrap_row(const float* a0, const float* b0, const float* a1, const float* b1, const float* a2,
-                               const float* b2, const float* own_amplitude, const float* ideal_x, const float* ideal_y,
-                               int n, float* depth_mm, float* amplitude_sum) {
+DRESSFORM_WIDE void unwrap_row(const float* __restrict a0, const float* __restrict b0, const float* __restrict a1,
+                               const float* __restrict b1, const float* __restrict a2, const float* __restrict b2,
+                               const float* __restrict own_amplitude, const float* __restrict ideal_x,
+                               const float* __restrict ideal_y, int n, float* __restrict depth_mm,
+                               float* __restrict amplitude_sum) {
   constexpr float turn = 6.28318531f;
   for (int i = 0; i < n; ++i) {
     const float m0 = __builtin_sqrtf(a0[i] * a0[i] + b0[i] * b0[i]);
@@ -71,7 +73,7 @@ DRESSFORM_WIDE void unwrap_row(const float* a0, const float* b0, const float* a1
     float t5 = 3.0f * wide::nearest((t1 - t0) * (1.0f / 3)) + t0;
     const float half = wide::absolute(t5 - t2) * 0.5f;
     const float odd = 2.0f * (half - (wide::nearest(half - 0.5f)));  // |t5 - t2| modulo 2
-    const bool second_turn = odd > 0.5f && odd < 1.5f;
+    const bool second_turn = (odd > 0.5f) & (odd < 1.5f);
     t5 = second_turn ? t5 + 15.0f : t5;
     t1 = second_turn ? t1 + 15.0f : t1;
     const float n2 = wide::nearest((t5 - t2) * 0.5f) + 0.5f * t2;
@@ -83,8 +85,8 @@ DRESSFORM_WIDE void unwrap_row(const float* a0, const float* b0, const float* a1
     const float bound = wide::exp2(1.44269504f * 3.321928f * (0.7694894f - 0.1604664f * wide::log(safe_least)));
     const float q = wide::smaller(0.6108653f, wide::larger(0.3490659f, bound));
     // A path shorter than the way to the emitter's window and back is noise about zero.
-    const bool good = least >= least_amplitude && sum >= least_amplitude_sum && own_amplitude[i] >= 0 &&
-                      c0 * c0 + c1 * c1 + c2 * c2 <= q * q && t > 0.03f;
+    const bool good = (least >= least_amplitude) & (sum >= least_amplitude_sum) & (own_amplitude[i] >= 0) &
+                      (c0 * c0 + c1 * c1 + c2 * c2 <= q * q) & (t > 0.03f);
     const float z = depth_of_path(4166.667f * wide::larger(t, 0.03f), ideal_x[i], ideal_y[i]);
     depth_mm[i] = good ? z : 0.0f;
     amplitude_sum[i] = sum;

@@ -29,8 +29,9 @@ DRESSFORM_WIDE void add_noise(const float* sample, const float* light, const flo
   }
 }
 
-DRESSFORM_WIDE void demodulate(const float* m0, const float* m1, const float* m2, float contrast_of, int n, float* x,
-                               float* y, float* amplitude, float* saturated) {
+DRESSFORM_WIDE void demodulate(const float* __restrict m0, const float* __restrict m1, const float* __restrict m2,
+                               float contrast_of, int n, float* __restrict x, float* __restrict y,
+                               float* __restrict amplitude, float* __restrict saturated) {
   const float scale = 1.0f / contrast_of;
   for (int i = 0; i < n; ++i) {
     const float a = scale * (m0[i] - 0.5f * (m1[i] + m2[i]));
@@ -43,7 +44,8 @@ DRESSFORM_WIDE void demodulate(const float* m0, const float* m1, const float* m2
   }
 }
 
-DRESSFORM_WIDE void drop_saturated(const float* saturated, int n, float* x, float* y, float* amplitude) {
+DRESSFORM_WIDE void drop_saturated(const float* __restrict saturated, int n, float* __restrict x, float* __restrict y,
+                                   float* __restrict amplitude) {
   for (int i = 0; i < n; ++i) {
     const bool over = saturated[i] >= full_scale;
     x[i] = over ? 0.0f : x[i], y[i] = over ? 0.0f : y[i], amplitude[i] = over ? -1.0f : amplitude[i];
@@ -51,67 +53,83 @@ DRESSFORM_WIDE void drop_saturated(const float* saturated, int n, float* x, floa
 }
 
 // Three samples of an unclipped frequency.
-DRESSFORM_WIDE void expose_sine(const Points& points, int f, const float* interference, int n, float* m0, float* m1,
-                                float* m2) {
-  const float* bounce_cos = points.bounce[2 * f];
-  const float* bounce_sin = points.bounce[2 * f + 1];
+DRESSFORM_WIDE void expose_sine(const Points& points, int f, const float* interference, int n, float* __restrict m0,
+                                float* __restrict m1, float* __restrict m2) {
+  const float* __restrict bounce_cos = points.bounce[2 * f];
+  const float* __restrict bounce_sin = points.bounce[2 * f + 1];
+  const float* __restrict path_mm = points.path_mm;
+  const float* __restrict direct = points.direct;
+  const float* __restrict gain = points.gain;
   const float turns_per_mm = 1.0f / wavelength_mm[f], c = contrast[f];
+  const float i0 = interference[0], i1 = interference[1], i2 = interference[2];
   for (int i = 0; i < n; ++i) {
     float s, u;
-    wide::sincos_of_turns(points.path_mm[i] * turns_per_mm, s, u);
-    const float re_part = points.direct[i] + points.gain[i] * bounce_cos[i], im_part = points.gain[i] * bounce_sin[i];
-    const float re = u * re_part - s * im_part, im = s * re_part + u * im_part, own = points.direct[i];
-    m0[i] = c * (re + own * interference[0]);
-    m1[i] = c * (cos_phase[1] * re - sin_phase[1] * im + own * interference[1]);
-    m2[i] = c * (cos_phase[2] * re - sin_phase[2] * im + own * interference[2]);
+    wide::sincos_of_turns(path_mm[i] * turns_per_mm, s, u);
+    const float re_part = direct[i] + gain[i] * bounce_cos[i], im_part = gain[i] * bounce_sin[i];
+    const float re = u * re_part - s * im_part, im = s * re_part + u * im_part, own = direct[i];
+    m0[i] = c * (re + own * i0);
+    m1[i] = c * (cos_phase[1] * re - sin_phase[1] * im + own * i1);
+    m2[i] = c * (cos_phase[2] * re - sin_phase[2] * im + own * i2);
   }
 }
 
 // The direct light's correlation is cut at +-clip; what has bounced is weak and stays a sine.
-DRESSFORM_WIDE void expose_clipped(const Points& points, int f, const float* interference, float clip, int n, float* m0,
-                                   float* m1, float* m2) {
-  const float* bounce_cos = points.bounce[2 * f];
-  const float* bounce_sin = points.bounce[2 * f + 1];
+DRESSFORM_WIDE void expose_clipped(const Points& points, int f, const float* interference, float clip, int n,
+                                   float* __restrict m0, float* __restrict m1, float* __restrict m2) {
+  const float* __restrict bounce_cos = points.bounce[2 * f];
+  const float* __restrict bounce_sin = points.bounce[2 * f + 1];
+  const float* __restrict path_mm = points.path_mm;
+  const float* __restrict direct = points.direct;
+  const float* __restrict gain = points.gain;
   const float turns_per_mm = 1.0f / wavelength_mm[f], c = contrast[f];
+  const float i0 = interference[0], i1 = interference[1], i2 = interference[2];
   for (int i = 0; i < n; ++i) {
     float s, u;
-    wide::sincos_of_turns(points.path_mm[i] * turns_per_mm, s, u);
-    const float more_cos = points.gain[i] * bounce_cos[i], more_sin = points.gain[i] * bounce_sin[i];
-    const float re = u * more_cos - s * more_sin, im = s * more_cos + u * more_sin, own = points.direct[i];
+    wide::sincos_of_turns(path_mm[i] * turns_per_mm, s, u);
+    const float more_cos = gain[i] * bounce_cos[i], more_sin = gain[i] * bounce_sin[i];
+    const float re = u * more_cos - s * more_sin, im = s * more_cos + u * more_sin, own = direct[i];
     const float g0 = u, g1 = cos_phase[1] * u - sin_phase[1] * s, g2 = cos_phase[2] * u - sin_phase[2] * s;
-    m0[i] = c * (re + own * (wide::smaller(clip, wide::larger(-clip, g0)) + interference[0]));
-    m1[i] = c * (cos_phase[1] * re - sin_phase[1] * im +
-                 own * (wide::smaller(clip, wide::larger(-clip, g1)) + interference[1]));
-    m2[i] = c * (cos_phase[2] * re - sin_phase[2] * im +
-                 own * (wide::smaller(clip, wide::larger(-clip, g2)) + interference[2]));
+    m0[i] = c * (re + own * (wide::smaller(clip, wide::larger(-clip, g0)) + i0));
+    m1[i] = c * (cos_phase[1] * re - sin_phase[1] * im + own * (wide::smaller(clip, wide::larger(-clip, g1)) + i1));
+    m2[i] = c * (cos_phase[2] * re - sin_phase[2] * im + own * (wide::smaller(clip, wide::larger(-clip, g2)) + i2));
+  }
+}
+
+DRESSFORM_WIDE void illuminate_lanes(const float* __restrict ideal_x, const float* __restrict ideal_y,
+                                     const float* __restrict depth_m, const float* __restrict normal_x,
+                                     const float* __restrict normal_y, const float* __restrict normal_z,
+                                     const float* __restrict nir_albedo, const int* __restrict is_chrome, float signal,
+                                     float profile_exponent, float chrome_albedo, float relief,
+                                     float* __restrict path_mm, float* __restrict direct, float* __restrict gain,
+                                     float* __restrict relief_mm) {
+  for (int i = 0; i < packet_size; ++i) {
+    const float x = ideal_x[i], y = ideal_y[i], z = depth_m[i];
+    const float stretch = __builtin_sqrtf(1.0f + x * x + y * y), range = z * stretch;
+    const float ex = z * x - 0.001f * emitter_x_mm, ey = z * y;  // from the emitter
+    const float distance = wide::larger(1e-3f, __builtin_sqrtf(ex * ex + ey * ey + z * z));
+    const float nx = normal_x[i], ny = normal_y[i], nz = normal_z[i];
+    const float lit = wide::larger(0.0f, -(nx * ex + ny * ey + nz * z) / distance);
+    const float seen = wide::smaller(1.0f, wide::larger(0.0f, -(nx * x + ny * y + nz) / stretch));
+    const float lens = 1.0f / (stretch * stretch * stretch * stretch);
+    const float profile = wide::exp2(profile_exponent * wide::log(stretch));
+    // Chrome lights up where it mirrors the emitter, far beyond full scale.
+    const float chrome = is_chrome[i] ? 1.0f : 0.0f, glint = seen > 0.9962f ? chrome : 0.0f;
+    const float matt = is_chrome[i] ? chrome_albedo : nir_albedo[i];
+    const float theta = wide::smaller(grazing_end, wide::acos(seen)), rest = 1.57079633f - theta;
+    const float strength = z > 0 ? signal * lens : 0.0f;
+    path_mm[i] = 1000.0f * (range + distance);
+    gain[i] = strength * matt * (1.0f - glint);
+    direct[i] = strength * (matt + 100.0f * glint) * profile * lit / (distance * distance);
+    relief_mm[i] = 6.0f * stretch * relief * z * __builtin_sqrtf(z) * (theta * theta) / (rest * rest);
   }
 }
 
 }  // namespace
 
-DRESSFORM_WIDE void illuminate(const IrPacket& packet, const Lamp& lamp, Returned& out) {
-  for (int i = 0; i < packet_size; ++i) {
-    const float x = packet.ideal_x[i], y = packet.ideal_y[i], z = packet.depth_m[i];
-    const float stretch = __builtin_sqrtf(1.0f + x * x + y * y), range = z * stretch;
-    const float ex = z * x - 0.001f * emitter_x_mm, ey = z * y;  // from the emitter
-    const float distance = __builtin_sqrtf(ex * ex + ey * ey + z * z);
-    const float safe = distance > 1e-3f ? distance : 1.0f;
-    const float nx = packet.normal_x[i], ny = packet.normal_y[i], nz = packet.normal_z[i];
-    const float lit = wide::larger(0.0f, -(nx * ex + ny * ey + nz * z) / safe);
-    const float seen = wide::smaller(1.0f, wide::larger(0.0f, -(nx * x + ny * y + nz) / stretch));
-    const float log_cosine = -wide::log(stretch);
-    const float lens = 1.0f / (stretch * stretch * stretch * stretch);
-    const float profile = wide::exp2(1.44269504f * (lamp.falloff - 4.0f) * log_cosine);
-    // Chrome lights up where it mirrors the emitter, far beyond full scale.
-    const bool chrome = packet.chrome[i] != 0, glint = chrome && seen > 0.9962f;
-    const float albedo = glint ? 100.0f : chrome ? lamp.chrome_albedo : packet.nir_albedo[i];
-    const float theta = wide::smaller(grazing_end, wide::acos(seen)), rest = 1.57079633f - theta;
-    const float gain = z > 0 ? lamp.signal_at_1m * albedo * lens : 0.0f;
-    out.path_mm[i] = 1000.0f * (range + distance);
-    out.gain[i] = glint ? 0.0f : gain;
-    out.direct[i] = gain * profile * lit / (safe * safe);
-    out.relief_mm[i] = 6.0f * stretch * lamp.relief * z * __builtin_sqrtf(z) * (theta * theta) / (rest * rest);
-  }
+void illuminate(const IrPacket& packet, const Lamp& lamp, Returned& out) {
+  illuminate_lanes(packet.ideal_x, packet.ideal_y, packet.depth_m, packet.normal_x, packet.normal_y, packet.normal_z,
+                   packet.nir_albedo, packet.chrome, lamp.signal_at_1m, 1.44269504f * (4.0f - lamp.falloff),
+                   lamp.chrome_albedo, lamp.relief, out.path_mm, out.direct, out.gain, out.relief_mm);
 }
 
 void expose(const Points& points, const FrameErrors& errors, int n, float* const (&samples)[raw_samples],
