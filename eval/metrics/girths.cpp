@@ -54,13 +54,18 @@ class Trunk {
     return part(0.475);
   }
 
-  // The level below the one at which an arm's joint to the trunk is half as thick as the trunk, or where the trunk
-  // becomes much wider at once (arms held out level).
+  // Where an arm's joint to the trunk becomes a third as thick as the trunk, or where the trunk becomes much wider at
+  // once (arms held out level).
   std::optional<double> armpit() const {
+    constexpr double kJoint = 0.3;
     const int lag = static_cast<int>(0.03 / kStep_m);
-    for (int i = index(part(0.64)); i < static_cast<int>(girth_m_.size()); ++i)
-      if (bridge_[i] > 0.5 || (bridge_[i] == 0 && half_breadth_[i] > 1.25 * half_breadth_[i - lag]))
-        return first_y_ + (i - 1) * kStep_m;
+    for (int i = index(part(0.64)); i < static_cast<int>(girth_m_.size()); ++i) {
+      if (bridge_[i] > kJoint) {
+        const double rise = bridge_[i] - bridge_[i - 1];
+        return first_y_ + (i - std::clamp((bridge_[i] - kJoint) / rise, 0.0, 1.0)) * kStep_m;
+      }
+      if (bridge_[i] == 0 && half_breadth_[i] > 1.25 * half_breadth_[i - lag]) return first_y_ + (i - 1) * kStep_m;
+    }
     return {};
   }
 
@@ -160,8 +165,7 @@ std::optional<TapeLevels> tape_levels(const Mesh& body) {
   const double waist = extreme(trunk, {crotch, *armpit, between(0.3), between(0.7), -1, 0.5, 8});
   const double lowest_hip = crotch + 0.04 * (waist - crotch), highest_hip = crotch + 0.5 * (waist - crotch);
   const double hip = extreme(trunk, {crotch, waist, lowest_hip, highest_hip, 1, 0.2, 0.5});
-  const double highest_chest = std::min(*armpit - 0.01 * axes->stature, trunk.part(0.73));
-  const double lowest_chest = std::min(waist + 0.45 * (*armpit - waist), highest_chest);
+  const double highest_chest = *armpit - 0.028 * axes->stature, lowest_chest = waist + 0.45 * (*armpit - waist);
   const double chest = extreme(trunk, {waist, *armpit, lowest_chest, highest_chest, 1, 0.75, 0});
   TapeLevels levels;
   levels.waist = level_of(body, *axes, waist);
@@ -173,15 +177,13 @@ std::optional<TapeLevels> tape_levels(const Mesh& body) {
 }
 
 std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Level& level) {
-  std::optional<double> girth;
-  double least_gap = 0;
+  std::vector<Vector2d> points;
   for (const auto& line : horizontal_section(garment, level.y)) {
-    const double round = angle_round(line.points, level.center);
-    if (round < 300 || round <= least_gap) continue;
-    least_gap = round;
-    girth = hull_girth_m(points_of_torso(line.points, level));
+    const auto of_torso = points_of_torso(line.points, level);
+    points.insert(points.end(), of_torso.begin(), of_torso.end());
   }
-  return girth;
+  if (points.empty() || angle_round(points, level.center) < 300) return {};
+  return hull_girth_m(points);
 }
 
 }  // namespace dressform::metrics

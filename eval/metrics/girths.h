@@ -18,16 +18,16 @@ struct TapeLevels {
   double crotch_y = 0, armpit_y = 0;
 };
 // Measured on the trunk alone, without arms that touch it. Crotch: the highest level where the body is much thinner
-// between the thighs than in them, so that a web between them does not move it. Armpit: just below where an arm's joint
-// is half as thick as the trunk. Waist: least girth over the middle 30-70 % between the two, least of all where people
-// have it: a belly does not drive it to chest or hips. Hip: largest girth in the lower half from crotch to waist.
-// Chest: largest girth from halfway between waist and armpit to 73 % of the stature, but below the armpit. Girths are
-// smoothed over 5 cm for the search only. Absent where the body is nothing of the kind.
+// between the thighs than in them, so that a web between them does not move it. Armpit: where an arm's joint is a third
+// as thick as the trunk. Waist: least girth over the middle 30-70 % between the two, with a strong pull to half-way: a
+// belly does not drive it to chest or hips. Hip: largest girth in the lower half from crotch to waist. Chest: largest
+// girth from half-way between waist and armpit to 2.8 % of the stature below the armpit. Girths are smoothed over 5 cm
+// for the search only. Absent where the body is nothing of the kind.
 std::optional<TapeLevels> tape_levels(const Mesh& body);
 
-// Tape girth of a garment round the torso at a level: hull of the section's line that goes round the torso's centre (by
-// at least 300 degrees), without its points that lie nearer to a limb than to the torso: sleeves are left out also
-// where they join the torso. Absent where the garment does not go round.
+// Tape girth of a garment round the torso at a level: hull of the section's points without those that lie nearer to a
+// limb than to the torso: sleeves are left out also where they join the torso. Absent where these do not go round the
+// torso's centre by at least 300 degrees.
 std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Level& level);
 
 }  // namespace dressform::metrics

@@ -1,5 +1,7 @@
 #include "pipeline/fit/ease.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -8,45 +10,73 @@
 namespace dressform {
 namespace {
 
-constexpr int kLevels = 90;         // over the trunk
-constexpr double kLastPart = 2.94;  // just below the armpits: above, the trunk's section takes in the arms
+constexpr int kLevels = 90;        // over the trunk
+constexpr double kLastPart = 3.8;  // just below the armpits: above, cloth of trunk and sleeves is one
 constexpr double kFade_m = 0.015;
 
-// Where the garment's triangles of the trunk cross the height, (x, z).
-std::vector<cv::Point2f> crossings(const Mesh& garment, const std::vector<double>& weights, double y) {
+// Where the garment crosses the height, (x, z), without what lies nearer to an arm than to the trunk.
+std::vector<cv::Point2f> crossings(const Mesh& garment, const TrunkOutline& body, double y) {
   std::vector<cv::Point2f> points;
-  for (const auto& t : garment.triangles) {
-    if (weights[t[0]] < 0.5 || weights[t[1]] < 0.5 || weights[t[2]] < 0.5) continue;
+  for (const auto& t : garment.triangles)
     for (int k = 0; k < 3; ++k) {
       const Vector3d &a = garment.vertices[t[k]], &b = garment.vertices[t[(k + 1) % 3]];
       if ((a.y() < y) == (b.y() < y)) continue;
       const Vector3d p = a + (y - a.y()) / (b.y() - a.y()) * (b - a);
-      points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
+      const double to_trunk = horizontal_distance(p, body.trunk.points);
+      if (std::none_of(body.limbs.begin(), body.limbs.end(),
+                       [&](const auto& limb) { return horizontal_distance(p, limb) < to_trunk; }))
+        points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
     }
-  }
   return points;
 }
 
+// No gap wider than 60 degrees: under an arm cloth of the trunk may be missing.
 bool goes_round(const std::vector<cv::Point2f>& points, const Vector3d& centre) {
-  constexpr int kSectors = 36;
-  int seen[kSectors] = {};
-  for (const auto& p : points) {
-    const double angle = std::atan2(p.y - centre.z(), p.x - centre.x()) / (2 * M_PI) + 1;
-    ++seen[static_cast<int>(angle * kSectors) % kSectors];
-  }
-  return std::count_if(seen, seen + kSectors, [](int n) { return n > 0; }) >= 30;
+  std::vector<double> angles;
+  for (const auto& p : points) angles.push_back(std::atan2(p.y - centre.z(), p.x - centre.x()));
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 2 * M_PI - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+  return gap < M_PI / 3;
 }
 
 // Tape girth of cloth minus body at height y, m; nothing where the cloth does not go round.
-std::optional<double> ease_at(const Mesh& garment, const std::vector<double>& weights, const StandingBody& body,
-                              double y) {
-  const SectionLoop* loop = body.trunk_loop(y);
-  if (!loop) return {};
-  const auto points = crossings(garment, weights, body.sections.y(body.sections.level(y)));
-  if (points.size() < 20 || !goes_round(points, loop->centroid)) return {};
+std::optional<double> ease_at(const Mesh& garment, const StandingBody& body, double y) {
+  const TrunkOutline outline = body.outline_at(y);
+  if (outline.trunk.points.empty()) return {};
+  const auto points = crossings(garment, outline, body.sections.y(body.sections.level(y)));
+  if (points.size() < 20 || !goes_round(points, outline.trunk.centroid)) return {};
   std::vector<cv::Point2f> hull;
   cv::convexHull(points, hull);
-  return cv::arcLength(hull, true) - tape_girth(*loop);
+  return cv::arcLength(hull, true) - tape_girth(outline.trunk);
+}
+
+// Height at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 chest, 4 armpit.
+double tape_height(const StandingBody& body, double t) {
+  const double marks[] = {body.crotch_y, body.hip_y, body.waist_y, body.chest_y, body.armpit_y};
+  const int i = std::clamp(static_cast<int>(t), 0, 3);
+  return marks[i] + (t - i) * (marks[i + 1] - marks[i]);
+}
+
+// Moves the cloth away from the trunk's axis by what is wanted near its height, faded over the height.
+void widen(const StandingBody& user, const std::vector<double>& weights,
+           const std::vector<std::pair<double, double>>& wanted, Mesh& cloth) {
+  const auto change_at = [&](double y) {
+    double sum = 0, total = 1e-3;  // a little weight for "no change", which wins away from the measured levels
+    for (const auto& [height, change] : wanted) {
+      const double d = (height - y) / kFade_m, weight = std::exp(-0.5 * d * d);
+      sum += weight * change;
+      total += weight;
+    }
+    return sum / total;
+  };
+  tbb::parallel_for(std::size_t{0}, cloth.vertices.size(), [&](std::size_t v) {
+    Vector3d& p = cloth.vertices[v];
+    const SectionLoop* loop = user.trunk_loop(p.y());
+    Vector3d out = loop ? Vector3d(p - loop->centroid) : Vector3d::Zero();
+    out.y() = 0;
+    if (weights[v] > 0 && out.norm() > 0.03) p += weights[v] * change_at(p.y()) * out.normalized();
+  });
 }
 
 }  // namespace
@@ -59,33 +89,23 @@ double trunk_height(const StandingBody& body, double t) {
 }
 
 std::vector<Vector3d> with_ease_kept(const Mesh& before, const StandingBody& naked, const Mesh& fitted,
-                                     const StandingBody& user, const std::vector<double>& weights, double largest_m) {
-  std::vector<std::pair<double, double>> wanted;  // height on the user, change of radius
-  for (int level = 0; level < kLevels; ++level) {
-    const double t = kLastPart * (level + 0.5) / kLevels;
-    const auto was = ease_at(before, weights, naked, trunk_height(naked, t));
-    const auto is = ease_at(fitted, weights, user, trunk_height(user, t));
-    if (was && is)
-      wanted.emplace_back(trunk_height(user, t), std::clamp((*was - *is) / (2 * M_PI), -largest_m, largest_m));
+                                     const StandingBody& user, const std::vector<double>& weights, double largest_m,
+                                     int rounds) {
+  const auto part = [](int level) { return kLastPart * (level + 0.5) / kLevels; };
+  std::vector<std::optional<double>> was(kLevels), is(kLevels);
+  tbb::parallel_for(0, kLevels, [&](int i) { was[i] = ease_at(before, naked, tape_height(naked, part(i))); });
+  Mesh result = fitted;
+  for (int round = 0; round < rounds; ++round) {
+    tbb::parallel_for(0, kLevels, [&](int i) { is[i] = ease_at(result, user, tape_height(user, part(i))); });
+    std::vector<std::pair<double, double>> wanted;  // height on the user, change of radius
+    for (int i = 0; i < kLevels; ++i)
+      if (was[i] && is[i])
+        wanted.emplace_back(tape_height(user, part(i)),
+                            std::clamp((*was[i] - *is[i]) / (2 * M_PI), -largest_m, largest_m));
+    if (wanted.empty()) break;
+    widen(user, weights, wanted, result);
   }
-  const auto change_at = [&](double y) {
-    double sum = 0, total = 1e-3;  // a little weight for "no change", which wins away from the measured levels
-    for (const auto& [height, change] : wanted) {
-      const double d = (height - y) / kFade_m, weight = std::exp(-0.5 * d * d);
-      sum += weight * change;
-      total += weight;
-    }
-    return sum / total;
-  };
-  std::vector<Vector3d> result = fitted.vertices;
-  if (wanted.empty()) return result;
-  for (std::size_t v = 0; v < result.size(); ++v) {
-    const SectionLoop* loop = user.trunk_loop(result[v].y());
-    Vector3d out = loop ? Vector3d(result[v] - loop->centroid) : Vector3d::Zero();
-    out.y() = 0;
-    if (weights[v] > 0 && out.norm() > 0.03) result[v] += weights[v] * change_at(result[v].y()) * out.normalized();
-  }
-  return result;
+  return result.vertices;
 }
 
 }  // namespace dressform

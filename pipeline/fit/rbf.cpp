@@ -19,7 +19,7 @@ struct RbfParams {
   int rounds = 2;
   double snap_spacing_m = 0.06;
   double keep_offset = 1;
-  int ease_rounds = 2;
+  int ease_rounds = 4;
 };
 template <class V>
 void fields(V& v, RbfParams& p) {
@@ -63,8 +63,7 @@ Mesh fitted_mesh(const Mesh& garment, const StandingBody& naked, const BodyWarp&
   Mesh result{moved.vertices, garment.triangles};
   std::vector<double> trunk(moved.sleeve.size());
   for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = 1 - moved.sleeve[v];
-  for (int round = 0; round < params.ease_rounds; ++round)
-    result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01);
+  result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01, params.ease_rounds);
   return result;
 }
 

@@ -21,8 +21,19 @@ double mean_girth_near(const StandingBody& body, double y) {
   double sum = 0;
   int count = 0;
   for (double d = -0.02; d < 0.021; d += 0.01)
-    if (const SectionLoop* loop = body.trunk_loop(y + d)) sum += tape_girth(*loop), ++count;
+    if (const auto outline = body.outline_at(y + d); !outline.trunk.points.empty())
+      sum += tape_girth(outline.trunk), ++count;
   return count ? sum / count : std::numeric_limits<double>::infinity();
+}
+
+// Mean of the trunk's centroids over the heights from `low` to `high`; throws InputError where there is no trunk.
+Vector3d trunk_axis(const StandingBody& body, double low, double high) {
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (double y = low; y < high; y += body.sections.step)
+    if (const SectionLoop* loop = body.trunk_loop(y)) sum += loop->centroid, ++count;
+  if (count == 0) throw InputError("body", "found no trunk between crotch and armpits; expected a standing body, y up");
+  return sum / count;
 }
 
 // Front-to-back extent of a loop where it crosses the line at `offset` to the left of its centroid.
@@ -55,12 +66,29 @@ double find_crotch(const StandingBody& body) {
   return by_topology < lowest ? floor + kMeanCrotch * body.stature : std::min(by_topology, highest);
 }
 
+// Where arm and trunk first touch, found from a little above, where their joint becomes a third as thick as the trunk:
+// a web of the surface in the armpit moves the touch, but not the joint. By topology where the sections show no joint.
+double find_armpit(const StandingBody& body) {
+  constexpr double kJoint = 0.3, kAboveTouch = 0.015;  // of the trunk's thickness; of the stature
+  const double floor = body.limbs.floor_y;
+  double before = 0;
+  for (int level = body.sections.level(floor + 0.64 * body.stature);
+       body.sections.y(level) < floor + 0.86 * body.stature; ++level) {
+    const double joint = body.outline_at(body.sections.y(level)).joint;
+    if (joint > kJoint)
+      return body.sections.y(level) - std::clamp((joint - kJoint) / (joint - before), 0.0, 1.0) * body.sections.step -
+             kAboveTouch * body.stature;
+    before = joint;
+  }
+  return body.limbs.armpit_y;
+}
+
 // The narrowest height of the trunk; the pull to its middle decides where a belly leaves no waist.
 double find_waist(const StandingBody& body) {
   double best_y = 0, best = std::numeric_limits<double>::infinity();
-  for (double t = 0.32; t <= 0.72; t += 0.02) {
+  for (double t = 0.3; t <= 0.7; t += 0.01) {
     const double y = body.crotch_y + t * (body.armpit_y - body.crotch_y);
-    const double cost = mean_girth_near(body, y) * (1 + 0.8 * (t - 0.5) * (t - 0.5));
+    const double cost = mean_girth_near(body, y) * (1 + 8 * (t - 0.5) * (t - 0.5));
     if (cost >= best) continue;
     best = cost;
     best_y = y;
@@ -71,14 +99,27 @@ double find_waist(const StandingBody& body) {
 // The widest height between crotch and waist; the pull to where hips are decides where there is none.
 double find_hip(const StandingBody& body) {
   double best_y = 0, best = 0;
-  for (double t = 0.06; t <= 0.6; t += 0.02) {
+  for (double t = 0.04; t <= 0.5; t += 0.01) {
     const double y = body.crotch_y + t * (body.waist_y - body.crotch_y), girth = mean_girth_near(body, y);
-    const double score = std::isfinite(girth) ? girth * (1 - 0.25 * (t - 0.25) * (t - 0.25)) : 0;
+    const double score = std::isfinite(girth) ? girth * (1 - 0.5 * (t - 0.2) * (t - 0.2)) : 0;
     if (score <= best) continue;
     best = score;
     best_y = y;
   }
   return best_y > 0 ? best_y : body.crotch_y + 0.25 * (body.waist_y - body.crotch_y);
+}
+
+// The widest height from half-way between waist and armpit to just below the armpit.
+double find_chest(const StandingBody& body) {
+  const double highest = body.armpit_y - 0.013 * body.stature, lowest = 0.55 * body.waist_y + 0.45 * body.armpit_y;
+  double best_y = highest, best = 0;
+  for (int i = 0; i <= 40; ++i) {
+    const double y = highest - (highest - lowest) * i / 40, girth = mean_girth_near(body, y);
+    if (!std::isfinite(girth) || girth <= best) continue;
+    best = girth;
+    best_y = y;
+  }
+  return best_y;
 }
 
 // The narrowest height between shoulders and chin; the pull to where necks are keeps it off the crown.
@@ -175,6 +216,11 @@ const SectionLoop* StandingBody::trunk_loop(double y) const {
   return level.empty() ? nullptr : &level[0];
 }
 
+TrunkOutline StandingBody::outline_at(double y) const {
+  if (y < sections.first_y || sections.levels.empty()) return {};
+  return trunk_outline(sections.levels[sections.level(y)], axis, limbs.left, stature);
+}
+
 StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front_hint) {
   StandingBody body;
   body.mesh = mesh;
@@ -182,19 +228,17 @@ StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front
   body.sections = horizontal_sections(mesh);
   const double floor = body.limbs.floor_y;
   body.stature = body.limbs.top_y - floor;
+  body.axis = trunk_axis(body, floor + 0.52 * body.stature, floor + 0.64 * body.stature);
   body.crotch_y = find_crotch(body);
   body.armpit_y =
-      std::clamp(body.limbs.armpit_y, floor + kLowestArmpit * body.stature, floor + kHighestArmpit * body.stature);
+      std::clamp(find_armpit(body), floor + kLowestArmpit * body.stature, floor + kHighestArmpit * body.stature);
   body.neck_y = find_neck(body);
   body.waist_y = find_waist(body);
   body.hip_y = find_hip(body);
+  body.chest_y = find_chest(body);
   // Hips and waist are told from where the legs part; cloth between thighs that are one piece can only be below it.
   body.crotch_y = std::min(body.crotch_y, std::max(body.limbs.crotch_y, floor + kLowestFork * body.stature));
-  int count = 0;
-  for (double y = body.crotch_y; y < body.armpit_y; y += body.sections.step)
-    if (const SectionLoop* loop = body.trunk_loop(y)) body.axis += loop->centroid, ++count;
-  if (count == 0) throw InputError("body", "found no trunk between crotch and armpits; expected a standing body, y up");
-  body.axis /= count;
+  body.axis = trunk_axis(body, body.crotch_y, body.armpit_y);
   return body;
 }
 

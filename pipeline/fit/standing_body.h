@@ -4,6 +4,7 @@
 
 #include "pipeline/common/body_limbs.h"
 #include "pipeline/common/mesh_query.h"
+#include "pipeline/fit/trunk_outline.h"
 #include "scenes/mesh.h"
 
 namespace dressform {
@@ -16,12 +17,13 @@ struct StandingBody {
   double stature = 0;
   // Landmark heights, m. Found by topology and girth, and held within what people are like (ANSUR II): thighs that
   // touch hide the crotch, a belly hides the waist.
-  double crotch_y = 0, hip_y = 0, waist_y = 0, armpit_y = 0, neck_y = 0;
+  double crotch_y = 0, hip_y = 0, waist_y = 0, chest_y = 0, armpit_y = 0, neck_y = 0;
   Vector3d axis = Vector3d::Zero();  // a point on the trunk's axis (x and z matter)
 
   // Direction at `angle` about the vertical, 0 = front, a quarter turn = left.
   Vector3d direction(double angle) const { return std::cos(angle) * limbs.front + std::sin(angle) * limbs.left; }
   const SectionLoop* trunk_loop(double y) const;  // the largest loop of the level; null where there is none
+  TrunkOutline outline_at(double y) const;        // of the level; empty where there is none
 };
 
 StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front_hint = {});
