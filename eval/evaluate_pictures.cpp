@@ -1,6 +1,9 @@
+#include <cmath>
+
 #include "eval/evaluate_parts.h"
 #include "eval/held_out.h"
 #include "eval/metrics/label_metrics.h"
+#include "eval/metrics/mesh_distance.h"
 #include "eval/metrics/sampling.h"
 
 namespace dressform::evaluation {
@@ -57,6 +60,26 @@ std::vector<ScoreRow> labels(const RunOutputs& outputs, const GroundTruth& truth
   return rows.rows;
 }
 
+namespace {
+
+// Of each triangle of the textured garment, whether no sensor saw its middle.
+std::vector<bool> unobserved_triangles(const TruthGarment& garment) {
+  const Mesh& textured = garment.textured.mesh;
+  std::vector<bool> result(textured.triangles.size(), false);
+  if (garment.views.empty()) return result;
+  std::vector<Vector3d> middles;
+  for (const auto& t : textured.triangles)
+    middles.push_back((textured.vertices[t[0]] + textured.vertices[t[1]] + textured.vertices[t[2]]) / 3);
+  const auto nearest = MeshDistance(garment.mesh).nearest(middles);
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const Vector3i& t = garment.mesh.triangles[nearest[i].triangle];
+    result[i] = !(garment.views[t[0]] && garment.views[t[1]] && garment.views[t[2]]);
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<ScoreRow> textures(const RunOutputs& outputs, const GroundTruth& truth,
                                const std::optional<Isometry3d>& world_from_model) {
   StageRows rows("texture");
@@ -67,7 +90,7 @@ std::vector<ScoreRow> textures(const RunOutputs& outputs, const GroundTruth& tru
     if (world_from_model && found != outputs.garments.end() && !found->second.textured.mesh.triangles.empty()) {
       TexturedMesh estimate = found->second.textured;
       estimate.mesh = transformed(estimate.mesh, world_from_model->matrix());
-      scores = compare_views(held_out_views(renderer, estimate, garment.textured));
+      scores = compare_views(held_out_views(renderer, estimate, garment.textured, unobserved_triangles(garment)));
       if (scores->pixels == 0) scores.reset();  // nowhere do the two cover the same place
     }
     const auto add = [&, slot = slot](const char* name, const char* unit, double value) {
@@ -78,6 +101,10 @@ std::vector<ScoreRow> textures(const RunOutputs& outputs, const GroundTruth& tru
     };
     const HeldOutScores found_scores = scores.value_or(HeldOutScores{});
     add("ssim@1", "1", found_scores.ssim);
+    if (scores && std::isnan(scores->ssim_observed))
+      rows.absent(slot + "/ssim_observed@1", "1");
+    else
+      add("ssim_observed@1", "1", found_scores.ssim_observed);
     add("ssim_raw@1", "1", found_scores.ssim_raw);
     add("psnr_db@1", "dB", found_scores.psnr_db);
     add("de2000_mean@1", "1", found_scores.de2000_mean);

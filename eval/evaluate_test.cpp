@@ -139,6 +139,7 @@ TEST(Evaluate, TruthScoresPerfect) {
     EXPECT_NEAR(value(scores, "open", slot + "/rims_hd95_mm@1"), 0, 1e-6);
     EXPECT_NEAR(value(scores, "open", slot + "/rims_length_error@1"), 0, 1e-9);
     EXPECT_GT(value(scores, "texture", slot + "/ssim@1"), 0.995);
+    EXPECT_GT(value(scores, "texture", slot + "/ssim_observed@1"), 0.995);
     EXPECT_GT(value(scores, "texture", slot + "/ssim_raw@1"), 0.995);
     EXPECT_GT(value(scores, "texture", slot + "/silhouette_iou@1"), 0.995);
     EXPECT_LT(value(scores, "texture", slot + "/de2000_mean@1"), 0.2);
@@ -232,6 +233,30 @@ TEST(Evaluate, GainIsTakenOutOfPictures) {
   EXPECT_GT(value(scores, "texture", "top/gain_red@1"), 1.5);
   outputs.garments["top"].textured.texture = cv::Mat(64, 64, CV_8UC3, cv::Scalar(90, 90, 90));
   EXPECT_LT(value(evaluate(outputs, truth, quick()), "texture", "top/ssim@1"), 0.9) << "the print is gone";
+}
+
+TEST(Evaluate, ClothThatNobodySawCountsInOneSimilarityOnly) {
+  GroundTruth truth = some_truth();
+  RunOutputs outputs = perfect_outputs(truth);
+  // The lower half is seen by no sensor, and the estimate knows nothing of its print.
+  TruthGarment& top = truth.garments.at("top");
+  double middle = 0;
+  for (const auto& v : top.mesh.vertices) middle += v.y() / top.mesh.vertices.size();
+  top.views.assign(top.mesh.vertices.size(), 1);
+  for (std::size_t i = 0; i < top.views.size(); ++i) top.views[i] = top.mesh.vertices[i].y() > middle;
+  TexturedMesh& estimate = outputs.garments["top"].textured;
+  const cv::Scalar grey = cv::mean(estimate.texture);
+  cv::Mat with_grey(estimate.texture.rows, 2 * estimate.texture.cols, estimate.texture.type(), grey);
+  estimate.texture.copyTo(with_grey.colRange(0, estimate.texture.cols));
+  for (std::size_t i = 0; i < estimate.mesh.triangles.size(); ++i) {
+    double y = 0;
+    for (int k = 0; k < 3; ++k) y += estimate.mesh.vertices[estimate.mesh.triangles[i][k]].y() / 3;
+    for (auto& uv : estimate.corner_uv[i]) uv = y < middle ? Vector2f(0.75f, 0.5f) : Vector2f(uv.x() / 2, uv.y());
+  }
+  estimate.texture = with_grey;
+  const Scores scores = evaluate(outputs, truth, quick());
+  EXPECT_LT(value(scores, "texture", "top/ssim@1"), 0.97);
+  EXPECT_GT(value(scores, "texture", "top/ssim_observed@1"), value(scores, "texture", "top/ssim@1") + 0.02);
 }
 
 TEST(Evaluate, EveryRowIsThereWhateverIsMissing) {

@@ -16,9 +16,23 @@ struct Place {
 };
 constexpr Place kPlaces[] = {{45, 10}, {135, 20}, {225, 10}, {315, 20}};
 
+// The mesh in white where the triangles are marked and black elsewhere.
+TexturedMesh marked(const TexturedMesh& mesh, const std::vector<bool>& marks) {
+  TexturedMesh result;
+  result.mesh = mesh.mesh;
+  result.texture = cv::Mat(8, 16, CV_8UC3, cv::Scalar::all(0));
+  result.texture.colRange(8, 16).setTo(cv::Scalar::all(255));
+  for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
+    const Vector2f at(marks[i] ? 0.75f : 0.25f, 0.5f);
+    result.corner_uv.push_back({at, at, at});
+  }
+  return result;
+}
+
 }  // namespace
 
-HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth) {
+HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth,
+                            const std::vector<bool>& unobserved) {
   Eigen::AlignedBox3d box;
   for (const auto& vertex : truth.mesh.vertices) box.extend(vertex);
   RenderItem of_estimate, of_truth;
@@ -27,6 +41,10 @@ HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, co
   of_estimate.shading = of_truth.shading = Shading::unlit;
   RenderOptions options;
   options.background.setConstant(0.5f);
+  const TexturedMesh marks = unobserved.empty() ? TexturedMesh{} : marked(truth, unobserved);
+  RenderItem of_marks;
+  of_marks.textured = &marks;
+  of_marks.shading = Shading::unlit;
   HeldOutViews views;
   for (const auto& place : kPlaces) {
     const RenderView view = look_at_box(box.min(), box.max(), place.azimuth_deg, place.elevation_deg, kWidth, kHeight);
@@ -34,6 +52,12 @@ HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, co
     views.truths.push_back(renderer.render(view, {of_truth}, options));
     views.estimate_masks.push_back(renderer.mask(view, {of_estimate}));
     views.truth_masks.push_back(renderer.mask(view, {of_truth}));
+    cv::Mat hidden(kHeight, kWidth, CV_8U, cv::Scalar(0));
+    if (!unobserved.empty()) {
+      cv::extractChannel(renderer.render(view, {of_marks}, options), hidden, 0);
+      hidden = (hidden > 192) & views.truth_masks.back();  // the background is middle grey
+    }
+    views.unobserved_masks.push_back(hidden);
   }
   return views;
 }
@@ -45,12 +69,17 @@ HeldOutScores compare_views(const HeldOutViews& views) {
   for (std::size_t i = 0; i < views.truths.size(); ++i) both.push_back(views.estimate_masks[i] & views.truth_masks[i]);
   scores.gain = gain_to_match(views.estimates, views.truths, both);
   std::vector<double> differences;
-  double squares = 0, values = 0;
+  double squares = 0, values = 0, with_seen = 0;
   for (std::size_t i = 0; i < views.truths.size(); ++i) {
     const cv::Mat &truth = views.truths[i], either = views.estimate_masks[i] | views.truth_masks[i];
     cv::Mat adjusted = views.estimates[i].clone();
     with_gain(views.estimates[i], scores.gain).copyTo(adjusted, views.estimate_masks[i]);  // the background stays
     scores.ssim += masked_ssim(adjusted, truth, either) / count;
+    const cv::Mat seen = either & ~views.unobserved_masks[i];
+    if (cv::countNonZero(seen)) {
+      scores.ssim_observed += masked_ssim(adjusted, truth, seen);
+      ++with_seen;
+    }
     scores.ssim_raw += masked_ssim(views.estimates[i], truth, either) / count;
     scores.silhouette_iou += label_iou(views.estimate_masks[i], views.truth_masks[i], 255) / count;
     const auto differ = color_differences(adjusted, truth, both[i]);
@@ -58,6 +87,7 @@ HeldOutScores compare_views(const HeldOutViews& views) {
     squares += std::pow(cv::norm(adjusted, truth, cv::NORM_L2, both[i]), 2);
     values += 3.0 * cv::countNonZero(both[i]);
   }
+  scores.ssim_observed /= with_seen;  // not a number where no view shows anything that was seen
   // 100 dB stands for equal pictures.
   scores.psnr_db = std::min(100.0, 10 * std::log10(255.0 * 255.0 * values / squares));
   scores.de2000_mean = mean(differences);

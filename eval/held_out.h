@@ -9,9 +9,10 @@ namespace dressform {
 // above. Both garments are drawn unlit, alone, in the world frame, on middle grey, by the same cameras, which frame the
 // true one. One linear gain per channel for the whole garment is taken out first.
 struct HeldOutScores {
-  double ssim = 0;      // windows centred on either garment; mean over the views
-  double ssim_raw = 0;  // without the gain
-  double psnr_db = 0;   // pixels that both cover
+  double ssim = 0;           // windows centred on either garment; mean over the views
+  double ssim_observed = 0;  // the same without what no sensor saw of the true garment
+  double ssim_raw = 0;       // ssim without the gain
+  double psnr_db = 0;        // pixels that both cover
   double de2000_mean = 0, de2000_p95 = 0;
   double silhouette_iou = 0;
   cv::Vec3d gain = {1, 1, 1};  // B, G, R
@@ -22,9 +23,12 @@ struct HeldOutScores {
 struct HeldOutViews {
   std::vector<cv::Mat> estimates, truths;            // 8-bit BGR; estimates before the gain
   std::vector<cv::Mat> estimate_masks, truth_masks;  // uint8
+  std::vector<cv::Mat> unobserved_masks;             // uint8; where the truth is drawn and no sensor saw it
 };
 
-HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth);
+// unobserved: of each triangle of the truth, whether no sensor saw it; empty: all of it was seen.
+HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth,
+                            const std::vector<bool>& unobserved = {});
 HeldOutScores compare_views(const HeldOutViews& views);
 
 }  // namespace dressform

@@ -28,7 +28,7 @@ std::string scores_to_json(const Scores& scores) {
                     {"value", std::isfinite(row.value) ? json(row.value) : json()},
                     {"status", row.status},
                     {"n_samples", row.n_samples}});
-  const json text = {{"format", "dressform-scores"}, {"version", 1},         {"scene", scores.scene},
+  const json text = {{"format", "dressform-scores"}, {"version", 1},        {"scene", scores.scene},
                      {"variant", scores.variant},    {"seed", scores.seed}, {"scores", rows}};
   return text.dump(1) + "\n";
 }
@@ -42,8 +42,8 @@ Scores scores_from_json(const std::filesystem::path& file) {
       throw InputError(file.string(), "is not dressform-scores version 1");
     Scores scores{text.at("scene"), text.at("variant"), text.at("seed"), {}};
     for (const auto& row : text.at("scores")) {
-      const double value = row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                                     : row.at("value").get<double>();
+      const double value =
+          row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : row.at("value").get<double>();
       scores.rows.push_back(
           {row.at("stage"), row.at("metric"), row.at("unit"), value, row.at("status"), row.at("n_samples")});
     }

@@ -9,10 +9,10 @@ namespace dressform {
 
 // One measured number. Metric names carry unit and version: "top/f_10mm@1", "k2/rotation_deg@1".
 struct ScoreRow {
-  std::string stage;   // which stage it judges: "registration", "surface", "open", "texture", "fit", "correct", ...
+  std::string stage;  // which stage it judges: "registration", "surface", "open", "texture", "fit", "correct", ...
   std::string metric;
-  std::string unit;    // "mm", "deg", "1", ...
-  double value = 0;    // NaN when status is not "ok"
+  std::string unit;           // "mm", "deg", "1", ...
+  double value = 0;           // NaN when status is not "ok"
   std::string status = "ok";  // "ok", "failed" (the pipeline gave nothing), "absent" (the truth has no such thing)
   long n_samples = 0;
 };
