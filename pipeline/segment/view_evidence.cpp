@@ -129,6 +129,20 @@ void take_shift_as_offset(DepthFacts& facts) {
         facts.offset_mm.at<float>(y, x) = shift;
 }
 
+// Where bare skin and cloth lie within the window that the depth was smoothed over, the offset is a mean of both: it
+// says nothing of where between them the cloth ends, and colour has to.
+void forget_offsets_at_ends(DepthFacts& facts) {
+  constexpr float kSkin_mm = 4, kCloth_mm = 9;
+  cv::Mat low = facts.offset_mm.clone(), high = facts.offset_mm.clone();
+  const cv::Mat unknown = facts.offset_mm != facts.offset_mm;
+  low.setTo(std::numeric_limits<float>::max(), unknown);
+  high.setTo(std::numeric_limits<float>::lowest(), unknown);
+  const cv::Mat window = cv::Mat::ones(5, 5, CV_8U);
+  cv::erode(low, low, window);
+  cv::dilate(high, high, window);
+  facts.offset_mm.setTo(kNaN, (low < kSkin_mm) & (high > kCloth_mm));
+}
+
 // Unchanged between the shots and away from the body: what holds the mannequin up.
 cv::Mat stand_mask(const DepthFacts& facts, const cv::Mat& model_offset_mm, double stand_mm) {
   cv::Mat stand = cv::Mat::zeros(facts.part.size(), CV_8U);
@@ -247,6 +261,7 @@ ViewEvidence view_evidence(const Shot& dressed, const Shot* naked, const SensorC
     stand = stand_mask(facts, facts.offset_mm, params.stand_mm);
     take_shift_as_offset(facts);
   }
+  forget_offsets_at_ends(facts);
   bring_to_color(facts, stand, color_depth_map(raw_mm, sensor), view);
   fill_from_nearest(view, kFarFill_px * static_cast<float>(sensor.color->width) / 1920);
   if (compare) compare_colors(dressed, *naked, masks, view);
