@@ -18,6 +18,7 @@ constexpr float kCloth_mm = 60;  // offsets of cloth are taken as uniform up to 
 constexpr float kSureCloth_mm = 10, kSureSkin_mm = 4;
 constexpr float kUnchanged = 3;      // noise units
 constexpr float kUncoveredNats = 3;  // where the naked shot shows the room, the dressed one shows cloth
+constexpr float kShadowPrice = 1;    // nats: shadows on skin are seldom
 constexpr float kHeadNats = 3, kHandNats = 2, kFootNats = 1.5;
 
 // Nats in favour of cloth from the offset: a uniform density against a normal one round zero.
@@ -122,7 +123,11 @@ cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHist
     for (int u = 0; u < cost.cols; ++u) {
       if (!view.body.at<uchar>(v, u)) continue;
       const auto& color = view.lab.at<cv::Vec3b>(v, u);
-      const float color_nats = std::clamp(cloth.log_density(color) - skin.log_density(color), -most, most);
+      float of_skin = skin.log_density(color);
+      if (view.shadow.at<uchar>(v,
+                                u))  // skin of its own colour, that clothes shade: seldom seen on the naked mannequin
+        of_skin = std::max(of_skin, skin.log_density(view.naked_lab.at<cv::Vec3b>(v, u)) - kShadowPrice);
+      const float color_nats = std::clamp(cloth.log_density(color) - of_skin, -most, most);
       cost.at<float>(v, u) = -(fixed.at<float>(v, u) + color_nats);
     }
   }

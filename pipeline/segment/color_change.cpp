@@ -54,14 +54,20 @@ float difference(const cv::Vec3f& a, const cv::Vec3f& b, float k) {
   return std::max({std::abs(a[0] - k * b[0]), std::abs(a[1] - k * b[1]), std::abs(a[2] - k * b[2])});
 }
 
-float change_of(const cv::Vec3f& dressed, const cv::Vec3f& naked, float noise) {
+struct Change {
+  float levels = 0;
+  bool shadow = false;
+};
+
+Change change_of(const cv::Vec3f& dressed, const cv::Vec3f& naked, float noise) {
   const float plain = difference(dressed, naked, 1);
   const float norm = naked.dot(naked);
-  if (!(norm > 1)) return plain;
+  if (!(norm > 1)) return {plain, false};
   const float shadow = std::clamp(dressed.dot(naked) / norm, kDarkestShadow, kBrightest);
   const float shaded = difference(dressed, naked, shadow);
   // A mere shadow is neither the same nor a change.
-  return std::min(plain, std::max(shaded, kShadowUnits * noise));
+  const float least = kShadowUnits * noise;
+  return {std::min(plain, std::max(shaded, least)), plain > least && shaded < least && shadow < 1};
 }
 
 }  // namespace
@@ -72,7 +78,7 @@ ColorChange color_change(const cv::Mat& dressed_bgr, const cv::Mat& naked_bgr, c
   cv::GaussianBlur(dressed_bgr, dressed, cv::Size(3, 3), 0);
   cv::GaussianBlur(naked_bgr, naked, cv::Size(3, 3), 0);
   const Match match = match_exposure(dressed, naked, body);
-  ColorChange result{cv::Mat(box.size(), CV_32F), cv::Mat(box.size(), CV_8UC3)};
+  ColorChange result{cv::Mat(box.size(), CV_32F), cv::Mat::zeros(box.size(), CV_8U), cv::Mat(box.size(), CV_8UC3)};
   for (int y = 0; y < box.height; ++y) {
     for (int x = 0; x < box.width; ++x) {
       const cv::Point at(x + box.x, y + box.y);
@@ -83,7 +89,9 @@ ColorChange color_change(const cv::Mat& dressed_bgr, const cv::Mat& naked_bgr, c
         b[k] *= match.gain[k];
         result.matched_naked.at<cv::Vec3b>(y, x)[k] = cv::saturate_cast<uchar>(match.gain[k] * raw[k]);
       }
-      result.units.at<float>(y, x) = change_of(a, b, match.noise) / match.noise;
+      const Change change = change_of(a, b, match.noise);
+      result.units.at<float>(y, x) = change.levels / match.noise;
+      if (change.shadow) result.shadow.at<uchar>(y, x) = 255;
     }
   }
   return result;

@@ -8,6 +8,7 @@ extern const float kShadowUnits;
 
 struct ColorChange {
   cv::Mat units;          // float32, size of the box: change in units of the noise
+  cv::Mat shadow;         // uint8: 255 where the dressed shot shows the naked one's colour in shadow
   cv::Mat matched_naked;  // 8-bit BGR, size of the box: the naked shot at the dressed shot's exposure
 };
 

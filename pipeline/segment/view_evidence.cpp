@@ -225,6 +225,7 @@ ViewEvidence empty_view(const Shot& dressed, const ViewMasks& masks) {
   view.limb_end = cv::Mat::zeros(size, CV_32F);
   view.offset_mm = cv::Mat(size, CV_32F, cv::Scalar(kNaN));
   view.change = cv::Mat(size, CV_32F, cv::Scalar(kNaN));
+  view.shadow = cv::Mat::zeros(size, CV_8U);
   view.uncovered = cv::Mat::zeros(size, CV_8U);
   view.naked_body = cv::Mat::zeros(size, CV_8U);
   return view;
@@ -240,6 +241,7 @@ void compare_colors(const Shot& dressed, const Shot& naked, const ViewMasks& mas
   cv::erode(view.naked_body, inside, cv::Mat(), {-1, -1}, 2);
   cv::dilate(view.naked_body, near, cv::Mat(), {-1, -1}, 3);
   change.units.copyTo(view.change, inside);
+  change.shadow.copyTo(view.shadow, inside);
   view.uncovered = near == 0;
 }
 

@@ -28,6 +28,7 @@ struct ViewEvidence {
   cv::Mat offset_mm;   // float32: distance outside the naked body, noise smoothed; NaN where not measured
   cv::Mat change;      // float32: colour change against the naked shot, shadows allowed for, in units of its noise;
                        // NaN where the naked shot does not show the body there
+  cv::Mat shadow;      // uint8: 255 where that change is a shadow
   cv::Mat uncovered;   // uint8: 255 where the naked shot shows the surroundings
   cv::Mat naked_lab;   // smoothed_lab of the naked shot, exposure matched; empty without a naked shot
   cv::Mat naked_body;  // uint8: the naked shot's mannequin
