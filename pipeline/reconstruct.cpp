@@ -6,6 +6,11 @@
 namespace dressform {
 namespace {
 
+// The cameras alone: stages do not see how they were found.
+Made<Calibration> cameras_of(const Made<Calibrated>& calibrated) {
+  return {hash_hex(calibrated.content_hash() + "/cameras"), [calibrated] { return calibrated.get().calibration; }};
+}
+
 // The calibration of the sensor that made a scan.
 Made<SensorCalibration> calibration_of(const Made<Calibration>& calibration, const std::string& sensor) {
   return {hash_hex(calibration.content_hash() + "/" + sensor), [calibration, sensor] {
@@ -25,7 +30,8 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
   Road road(options, store, progress);
   const auto& session = source.session;
 
-  const auto calibration = road.run<Calibrate>("calibrate", session);
+  const auto calibrated = road.run<Calibrate>("calibrate", session);
+  const auto calibration = cameras_of(calibrated);
   const auto scanner = calibration_of(calibration, source.scan_naked_sensor);
   const auto naked = road.run<Fuse>("fuse_naked", source.scan_naked, scanner);
   const auto extracted = road.run<Extract>("extract", session, calibration, naked);
@@ -35,8 +41,9 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
   const auto closed = road.run<Surface>("surface", session, calibration, naked, registration, filled);
   const auto opened = road.run<Open>("open", session, calibration, naked, registration, segmentation, closed);
   const auto textured = road.run<Texture>("texture", session, calibration, naked, registration, filled, opened);
-  Reconstruction result{source.sensors, calibration, naked,    extracted, registration, segmentation, filled,
-                        closed,         opened,      textured, {},        {},           {},           {}};
+  Reconstruction result{source.sensors, calibrated,   calibration, naked,  extracted,
+                        registration,   segmentation, filled,      closed, opened,
+                        textured,       {},           {},          {},     {}};
   if (source.scan_user) {
     const auto user_scanner = calibration_of(calibration, source.scan_user_sensor);
     result.user = road.run<Fuse>("fuse_user", *source.scan_user, user_scanner);

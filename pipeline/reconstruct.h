@@ -46,7 +46,8 @@ SessionSource open_session(const std::filesystem::path& folder, bool check);
 // Everything the road makes, in its order.
 struct Reconstruction {
   std::vector<std::string> sensors;
-  Made<Calibration> calibration;
+  Made<Calibrated> calibrated;
+  Made<Calibration> calibration;  // its cameras
   Made<BodyModel> naked;
   Made<ExtractedViews> extracted;
   Made<Registration> registration;

@@ -145,6 +145,13 @@ void read_garments(TomlSection& section, Scene& scene) {
   if (scene.garments.empty()) section.fail("", "found no [[garment]]; expected one or two");
 }
 
+void read_boards(TomlSection& section, Scene& scene) {
+  BoardsSpec& boards = scene.boards.emplace();
+  fields(section, boards);
+  if (boards.farthest_m < boards.nearest_m)
+    section.fail("farthest_m", "found less than nearest_m; expected at least as much");
+}
+
 void read_sensor_model(TomlSection& section, VariantChoice& choice) {
   section("model", choice.variant, {}, "");
   choice.values = section.values(choice.variant.c_str());
@@ -180,6 +187,8 @@ Scene read(TomlFiles& files, const std::filesystem::path& file) {
   section.child("scan", [&](TomlSection& scan) { read_scan(scan, scene.scan); });
   read_garments(section, scene);
   section.child("prior", [&](TomlSection& prior) { fields(prior, scene.prior); });
+  section.child("boards", [&](TomlSection& boards) { read_boards(boards, scene); });
+  section.child("calibration", [&](TomlSection& given) { fields(given, scene.given_calibration); });
   section.child("sensor", [&](TomlSection& sensor) { read_sensor_model(sensor, scene.sensor_model); });
   section.finish();
   scene.toml = full_text(files);

@@ -41,7 +41,7 @@ struct GarmentSpec {
 
 struct SensorSpec {
   std::string name;                      // "k1", ...
-  SensorCalibration calibration;         // the true one; the calibrated one is the same until a scene says otherwise
+  SensorCalibration calibration;         // the true one; see GivenCalibrationSpec for what the session says
   Isometry3d world_from_sensor = Isometry3d::Identity();  // IR camera, true
   bool body_tracking = false;            // the SDK tracks front and back views only
   double exposure = 1.0;                 // linear gain of the colour camera against the scene's nominal exposure
@@ -70,6 +70,25 @@ struct PriorSpec {
   double translation_m = 0.08;
 };
 
+// Shots of a checkerboard before every sensor of the rig, to calibrate from. Made only where a scene has the table.
+struct BoardsSpec {
+  int squares_x = 12, squares_y = 20;    // of the printed pattern; its inner corners are one fewer each way
+  double square_m = 0.028;
+  int views = 25;                        // poses per sensor
+  double nearest_m = 0.7, farthest_m = 1.6, tilt_deg = 40;
+};
+
+// How far the calibration that the session brings along is off the true one: sigmas, drawn for each sensor of the rig.
+struct GivenCalibrationSpec {
+  double focal_percent = 0, principal_px = 0, rotation_deg = 0, translation_mm = 0, depth_offset_mm = 0;
+  bool distortion = true;                // false: it knows no distortion, like the thesis's tables
+
+  bool exact() const {
+    return focal_percent == 0 && principal_px == 0 && rotation_deg == 0 && translation_mm == 0 &&
+           depth_offset_mm == 0 && distortion;
+  }
+};
+
 // A named model and its parameters, e.g. sensor = "fankhauser" with [sensor.fankhauser] overrides.
 struct VariantChoice {
   std::string variant;
@@ -88,6 +107,8 @@ struct Scene {
   std::vector<SensorSpec> rig;
   ScanSpec scan;
   PriorSpec prior;
+  std::optional<BoardsSpec> boards;
+  GivenCalibrationSpec given_calibration;
   VariantChoice sensor_model{"fankhauser", {}};
 };
 

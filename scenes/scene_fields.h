@@ -54,6 +54,27 @@ void fields(V& v, PriorSpec& prior) {
 }
 
 template <class V>
+void fields(V& v, BoardsSpec& boards) {
+  v("squares_x", boards.squares_x, 3, 100, "", "squares of the pattern along its first side");
+  v("squares_y", boards.squares_y, 3, 100, "", "squares of the pattern along its second side");
+  v("square_m", boards.square_m, 0.005, 0.5, "m", "edge of one square");
+  v("views", boards.views, 1, 100, "", "poses of the board before each sensor");
+  v("nearest_m", boards.nearest_m, 0.3, 10.0, "m", "least distance of the board's centre");
+  v("farthest_m", boards.farthest_m, 0.3, 10.0, "m", "largest distance of the board's centre");
+  v("tilt_deg", boards.tilt_deg, 0.0, 70.0, "deg", "largest angle between the board and the image plane");
+}
+
+template <class V>
+void fields(V& v, GivenCalibrationSpec& given) {
+  v("focal_percent", given.focal_percent, 0.0, 20.0, "%", "sigma of each camera's focal length");
+  v("principal_px", given.principal_px, 0.0, 100.0, "px", "sigma of the principal points in x and y");
+  v("rotation_deg", given.rotation_deg, 0.0, 20.0, "deg", "sigma of the rotation from infrared to colour");
+  v("translation_mm", given.translation_mm, 0.0, 100.0, "mm", "sigma of the step from infrared to colour, each axis");
+  v("depth_offset_mm", given.depth_offset_mm, 0.0, 100.0, "mm", "sigma of the depth offset");
+  v("distortion", given.distortion, "whether it knows the distortion");
+}
+
+template <class V>
 void fields(V& v, Camera& camera) {
   v("width", camera.width, 1, 8192, "px", "columns");
   v("height", camera.height, 1, 8192, "px", "rows");

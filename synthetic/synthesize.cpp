@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "scenes/random.h"
+#include "synthetic/boards/board.h"
+#include "synthetic/boards/given_calibration.h"
 #include "synthetic/body/body.h"
 #include "synthetic/body/body_tracking.h"
 #include "synthetic/body/scan_path.h"
@@ -99,6 +101,11 @@ std::vector<Isometry3d> path_inside(const Scene& scene, const Body& body, Seed s
   return path;
 }
 
+int pictures_of(const Scene& scene) {
+  const int sensors = static_cast<int>(scene.rig.size());
+  return 2 * sensors + 2 * scene.scan.frames + (scene.boards ? sensors * scene.boards->views : 0);
+}
+
 struct Optics {
   RayTable ir;
   std::unique_ptr<RayTable> color;
@@ -111,7 +118,7 @@ class Studio {
       : scene_(scene),
         seed_(seed),
         model_(SensorModel::at(scene.sensor_model.variant)),
-        meter_(progress, 2 * static_cast<int>(scene.rig.size()) + 2 * scene.scan.frames),
+        meter_(progress, pictures_of(scene)),
         lighting_(make_lighting(scene.lights, scene.room)),
         exposure_(nominal_exposure(lighting_)) {
     model_.complete(scene.sensor_model.values);
@@ -127,10 +134,29 @@ class Studio {
     std::map<std::string, Shot> shots;
     for (std::size_t i = 0; i < scene_.rig.size(); ++i) {
       const SensorSpec& sensor = scene_.rig[i];
-      shots[sensor.name] = shot(world, indirect, body, sensor, optics_[i], derived(seed_, name + "/" + sensor.name));
+      shots[sensor.name] = shot(world, indirect, &body, sensor, optics_[i], derived(seed_, name + "/" + sensor.name));
       meter_.step(name + "/" + sensor.name);
     }
     return shots;
+  }
+
+  // Shots of the board before every sensor, in an otherwise empty room.
+  Boards boards(const BoardsSpec& spec, const std::vector<RaySurface>& around) {
+    Boards result{spec.squares_x - 1, spec.squares_y - 1, spec.square_m, {}};
+    for (std::size_t i = 0; i < scene_.rig.size(); ++i) {
+      const SensorSpec& sensor = scene_.rig[i];
+      std::unique_ptr<IndirectLight> indirect;  // changes little with the board's pose: gathered once
+      for (const auto& ir_from_board : board_poses(spec, sensor, seed_)) {
+        auto& shots = result.shots[sensor.name];
+        const std::string name = "boards/" + sensor.name + "/" + std::to_string(shots.size());
+        const RayScene world(joined(around, {make_board(spec, sensor.world_from_sensor * ir_from_board)}));
+        if (!indirect) indirect = std::make_unique<IndirectLight>(world, lighting_);
+        Shot taken = shot(world, *indirect, nullptr, sensor, optics_[i], derived(seed_, name));
+        shots.push_back({taken.color, taken.ir, taken.depth_mm});
+        meter_.step(name);
+      }
+    }
+    return result;
   }
 
   DepthScan scan(const RayScene& world, const std::vector<Isometry3d>& path, const std::string& name) {
@@ -163,7 +189,8 @@ class Studio {
     return model_.run(view, scene_.sensor_model.values, seed);
   }
 
-  Shot shot(const RayScene& world, const IndirectLight& indirect, const Body& body, const SensorSpec& sensor,
+  // `body`: whom the sensor tracks, if it does; null: nobody is there.
+  Shot shot(const RayScene& world, const IndirectLight& indirect, const Body* body, const SensorSpec& sensor,
             const Optics& optics, Seed seed) const {
     Shot result;
     if (optics.color) {
@@ -177,9 +204,9 @@ class Studio {
     const SensorFrame frame = measure(view, seed);
     result.depth_mm = frame.depth_mm;
     result.ir = frame.ir;
-    if (!sensor.body_tracking) return result;
+    if (!sensor.body_tracking || !body) return result;
     result.body_index = track_body_index(view, seed);
-    result.skeleton = track_skeleton(body, view, seed);
+    result.skeleton = track_skeleton(*body, view, seed);
     return result;
   }
 
@@ -197,15 +224,19 @@ CaptureSession empty_session(const Scene& scene, Seed seed) {
   session.name = scene.name;
   session.created_by = "dressform " DRESSFORM_VERSION;
   session.licence = "CC0-1.0";
-  session.calibration.emplace();
-  for (const auto& sensor : scene.rig) {
-    session.sensors.push_back(sensor.name);
-    session.calibration->sensors[sensor.name] = sensor.calibration;
-  }
-  session.calibration->sensors["handheld"] = scene.scan.calibration;
+  for (const auto& sensor : scene.rig) session.sensors.push_back(sensor.name);
+  session.calibration = given_calibration(scene, seed);
   session.prior =
       RigPrior{perturbed_rig(scene.rig, scene.prior, seed), scene.prior.rotation_deg, scene.prior.translation_m};
   return session;
+}
+
+// The true calibration, where the session says another one or is to find it out from boards.
+std::optional<Calibration> true_calibration(const Scene& scene) {
+  if (!scene.boards && scene.given_calibration.exact()) return {};
+  Scene exact = scene;
+  exact.given_calibration = {};
+  return given_calibration(exact, 0);
 }
 
 void add_garment_truth(const Scene& scene, const GarmentSpec& spec, const Garment& garment, const RayScene& dressed,
@@ -238,6 +269,10 @@ void take_shots(const Scene& scene, Studio& studio, const Body& body, const std:
   for (std::size_t i = 0; i < specs.size(); ++i) add_garment_truth(scene, *specs[i], worn[i], dressed, out.truth);
 }
 
+std::vector<RaySurface> empty_room(const Scene& scene) {
+  return joined(joined(make_room(scene.room), make_bulbs(scene.lights)), make_rig_hardware(scene.rig));
+}
+
 }  // namespace
 
 SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgress& progress) {
@@ -256,9 +291,21 @@ SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgre
   out.session.scans["scan_user"] = studio.scan(RayScene(joined(room, {user_surface(user)})), user_path, "scan_user");
   truth.scan_world_from_sensor = {{"scan_naked", naked_path}, {"scan_user", user_path}};
   for (const auto& sensor : scene.rig) truth.world_from_sensor[sensor.name] = sensor.world_from_sensor;
+  if (scene.boards) out.session.boards = studio.boards(*scene.boards, empty_room(scene));
+  truth.calibration = true_calibration(scene);
   truth.naked_body = body.mesh;
   truth.user_body = user.mesh;
   truth.scene_toml = scene.toml;
+  return out;
+}
+
+SyntheticCapture synthesize_boards(const Scene& scene, Seed seed, const SynthesisProgress& progress) {
+  if (!scene.boards) throw InputError("boards", "the scene has none; expected a table [boards]");
+  check_rig_stands_inside(scene);
+  Studio studio(scene, seed, progress);
+  SyntheticCapture out{empty_session(scene, seed), {}};
+  out.session.boards = studio.boards(*scene.boards, empty_room(scene));
+  out.truth.calibration = true_calibration(scene);
   return out;
 }
 

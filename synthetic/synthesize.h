@@ -18,4 +18,8 @@ struct SyntheticCapture {
 using SynthesisProgress = std::function<void(int done, int total, const std::string& what)>;
 SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgress& progress = {});
 
+// The same session with nothing but its boards and calibration, and the true calibration: the bytes are those of
+// synthesize(). Throws InputError where the scene has no boards.
+SyntheticCapture synthesize_boards(const Scene& scene, Seed seed, const SynthesisProgress& progress = {});
+
 }  // namespace dressform

@@ -1,4 +1,7 @@
 #pragma once
+#include <map>
+#include <string>
+
 #include "pipeline/stage.h"
 #include "scenes/capture_session.h"
 
@@ -6,10 +9,42 @@ namespace dressform {
 
 struct CalibrateTag {
   static constexpr const char* name = "calibrate";
-  static constexpr const char* default_variant = "from_session";
+  static constexpr const char* default_variant = "automatic";
+};
+
+// What the boards gave for one sensor. Residuals are those of the final cameras with each board's pose fitted to the
+// corners of both images.
+struct BoardReport {
+  int shots = 0, found_ir = 0, found_color = 0;      // boards found
+  int used_ir = 0, used_color = 0;                   // not rejected
+  int turned = 0;                                    // pairs whose corner order was turned by 180 degrees and put right
+  double ir_rms_px = 0, color_rms_px = 0;            // root mean square of the corners' distances
+  double depth_rms_mm = 0;                           // of the boards' mean (measured depth - offset - plane)
+  double depth_slope_mm_per_m = 0;                   // of the same over distance: 10 is a focal length 1 % off
+  int depth_views = 0;                               // boards with depth
+  double ir_focal_sigma = 0, color_focal_sigma = 0;  // relative; expected from the corners' scatter. 0: not known
+  bool converged = false;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(shots, found_ir, found_color, used_ir, used_color, turned, ir_rms_px, color_rms_px, depth_rms_mm,
+            depth_slope_mm_per_m, depth_views, ir_focal_sigma, color_focal_sigma, converged);
+  }
+};
+
+struct Calibrated {
+  Calibration calibration;
+  std::map<std::string, BoardReport> boards;  // sensors calibrated from boards
+  std::map<std::string, std::string> notes;   // by sensor: why its boards were not used
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(calibration, boards, notes);
+  }
 };
 
 // Intrinsics, distortion, color_from_ir and depth offset of every sensor of the session, the hand-held one included.
-using Calibrate = Stage<CalibrateTag, Calibration(const CaptureSession&)>;
+// Variants that use boards take the session's own calibration for sensors without board shots.
+using Calibrate = Stage<CalibrateTag, Calibrated(const CaptureSession&)>;
 
 }  // namespace dressform

@@ -8,10 +8,10 @@ template <class V>
 void fields(V&, FromSessionParams&) {}
 
 // Takes the calibration that the session brings along.
-Calibration from_session(const CaptureSession& session, const FromSessionParams&) {
+Calibrated from_session(const CaptureSession& session, const FromSessionParams&) {
   if (!session.calibration)
     throw InputError("calibration.json", "the session has none; expected one for the variant calibrate.from_session");
-  return *session.calibration;
+  return {*session.calibration, {}, {}};
 }
 
 const Calibrate::Variant variant{"from_session", from_session};

@@ -1,0 +1,26 @@
+#include "pipeline/calibrate/from_boards.h"
+
+namespace dressform {
+namespace {
+
+struct SbDistortionParams {
+  BoardParams boards;
+};
+template <class V>
+void fields(V& v, SbDistortionParams& p) {
+  fields(v, p.boards);
+}
+
+// The thesis's way with distortion (k1, k2, p1, p2, k3), and a depth offset from the boards' planes.
+Calibrated sb_distortion(const CaptureSession& session, const SbDistortionParams& params) {
+  return calibrate_from_boards(session, params.boards, [](const SensorBoards& boards, const BoardParams&) {
+    BoardSolution solution = opencv_calibration(boards, true);
+    solution.sensor.depth_offset_m = depth_offset_m(boards, solution);
+    return solution;
+  });
+}
+
+const Calibrate::Variant variant{"sb_distortion", sb_distortion};
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,25 @@
+#include "pipeline/calibrate/from_boards.h"
+
+namespace dressform {
+namespace {
+
+struct ThesisParams {
+  BoardParams boards;
+};
+template <class V>
+void fields(V& v, ThesisParams& p) {
+  fields(v, p.boards);
+}
+
+// Section 3.1 of the thesis: `calibrateCamera` for each camera without distortion, `stereoCalibrate` between them, no
+// depth offset.
+Calibrated thesis(const CaptureSession& session, const ThesisParams& params) {
+  return calibrate_from_boards(session, params.boards, [](const SensorBoards& boards, const BoardParams&) {
+    return opencv_calibration(boards, false);
+  });
+}
+
+const Calibrate::Variant variant{"thesis", thesis};
+
+}  // namespace
+}  // namespace dressform
