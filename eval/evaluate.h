@@ -18,10 +18,17 @@ struct GarmentOutput {
   Mesh fitted;            // <slot>_fitted.ply; no triangles when absent
 };
 
+// Reprojection of the boards that a sensor was calibrated from.
+struct BoardResiduals {
+  double ir_rms_px = 0, color_rms_px = 0;
+};
+
 // What a run hands to its users, as it lies in RUN/out. What a run did not make is empty or absent.
 struct RunOutputs {
   std::map<std::string, Isometry3d> model_from_sensor;  // IR camera
   std::map<std::string, bool> converged;
+  std::optional<Calibration> calibration;            // calibration.json
+  std::map<std::string, BoardResiduals> boards;      // its key `boards`: sensors calibrated from boards
   std::optional<Isometry3d> user_model_from_frame0;  // optional key of registration.json: first frame of scan_user
   Mesh naked_body, user_body;                        // model frame; the user's own scan's model frame
   std::map<std::string, GarmentOutput> garments;     // "top", "bottom"

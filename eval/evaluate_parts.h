@@ -16,6 +16,7 @@ namespace evaluation {
 std::optional<Isometry3d> world_from_model(const RunOutputs& outputs, const GroundTruth& truth,
                                            const std::string& gauge_sensor);
 
+std::vector<ScoreRow> calibration(const RunOutputs& outputs, const GroundTruth& truth);
 std::vector<ScoreRow> bodies(const RunOutputs& outputs, const GroundTruth& truth,
                              const std::optional<Isometry3d>& world_from_model, const EvaluateOptions& options);
 std::vector<ScoreRow> registration(const RunOutputs& outputs, const GroundTruth& truth,

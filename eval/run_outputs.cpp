@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "eval/evaluate.h"
+#include "scenes/calibration_json.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
 #include "scenes/mesh_io.h"
@@ -19,6 +20,17 @@ void read_registration(const fs::path& file, RunOutputs& outputs) {
   for (const auto& name : poses.names()) outputs.model_from_sensor[name] = poses.at(name).rigid();
   for (const auto& name : converged.names()) outputs.converged[name] = converged.at(name).flag();
   if (json.has("user_model_from_frame0")) outputs.user_model_from_frame0 = json.at("user_model_from_frame0").rigid();
+}
+
+void read_calibrated(const fs::path& file, RunOutputs& outputs) {
+  if (!fs::exists(file)) return;
+  outputs.calibration = read_calibration(file);
+  const JsonValue json = read_json(file);
+  if (!json.has("boards")) return;
+  const JsonValue boards = json.at("boards");
+  for (const auto& sensor : boards.names())
+    outputs.boards[sensor] = {boards.at(sensor).at("ir_rms_px").number(0),
+                              boards.at(sensor).at("color_rms_px").number(0)};
 }
 
 void read_labels(const fs::path& folder, RunOutputs& outputs) {
@@ -38,6 +50,7 @@ RunOutputs read_run_outputs(const fs::path& run_folder) {
   const fs::path out = run_folder / "out";
   RunOutputs outputs;
   read_registration(out / "registration.json", outputs);
+  read_calibrated(out / "calibration.json", outputs);
   std::vector<std::function<void()>> jobs;
   const auto mesh = [&](const fs::path& file, Mesh& target) {
     if (fs::exists(file)) jobs.push_back([file, &target] { target = read_mesh(file); });

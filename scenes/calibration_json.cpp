@@ -27,7 +27,7 @@ Calibration read_calibration(const std::filesystem::path& file) {
   return calibration;
 }
 
-void write_calibration(const std::filesystem::path& file, const Calibration& calibration) {
+nlohmann::ordered_json calibration_json(const Calibration& calibration) {
   auto sensors = nlohmann::ordered_json::object();
   for (const auto& [name, sensor] : calibration.sensors) {
     nlohmann::ordered_json value{{"model", sensor.model}};
@@ -37,9 +37,11 @@ void write_calibration(const std::filesystem::path& file, const Calibration& cal
     value["depth_offset_m"] = sensor.depth_offset_m;
     sensors[name] = value;
   }
-  write_json(
-      file,
-      {{"format", session_layout::kCalibrationFormat}, {"version", session_layout::kVersion}, {"sensors", sensors}});
+  return {{"format", session_layout::kCalibrationFormat}, {"version", session_layout::kVersion}, {"sensors", sensors}};
+}
+
+void write_calibration(const std::filesystem::path& file, const Calibration& calibration) {
+  write_json(file, calibration_json(calibration));
 }
 
 }  // namespace dressform

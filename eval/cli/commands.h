@@ -10,6 +10,7 @@ using Command = std::function<int()>;
 Command add_run_command(CLI::App& app);
 Command add_synthesize_command(CLI::App& app);
 Command add_reconstruct_command(CLI::App& app);
+Command add_calibrate_command(CLI::App& app);
 Command add_render_command(CLI::App& app);
 Command add_score_command(CLI::App& app);
 Command add_report_command(CLI::App& app);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "eval/run/calibrated_json.h"
 #include "scenes/file_bytes.h"
 #include "scenes/mesh_io.h"
 
@@ -60,6 +61,9 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
   std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> jobs;
   jobs.push_back({"registration.json",
                   [&](const fs::path& file) { write_file_atomically(file, registration_json(reconstruction)); }});
+  jobs.push_back({"calibration.json", [&](const fs::path& file) {
+                    write_file_atomically(file, calibrated_json(reconstruction.calibrated.get()));
+                  }});
   jobs.push_back({"naked_body.ply", [&](const fs::path& file) { write_ply(file, reconstruction.naked.get().body); }});
   for (const auto& each : reconstruction.textured.get().garments) {
     const auto* slot = &each.first;
@@ -80,6 +84,7 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
   }
   if (reconstruction.user) reconstruction.user->get();  // brought into memory by one thread
   reconstruction.registration.get();
+  reconstruction.calibrated.get();
   reconstruction.naked.get();
   std::sort(jobs.begin(), jobs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { jobs[i].second(out / jobs[i].first); });

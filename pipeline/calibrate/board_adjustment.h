@@ -10,7 +10,7 @@ struct AdjustOptions {
   bool fit_offset = true;        // depth offset
   bool use_color = true;         // corners in colour
   bool use_depth = true;         // depth measured on the board
-  double depth_sigma_m = 0.002;  // error that all depth of one board shares
+  double depth_sigma_m = 0.005;  // error that all depth of one board shares
   int max_iterations = 100;
 };
 

@@ -11,7 +11,7 @@ namespace dressform {
 struct BoardParams {
   int min_views = 3;
   double reject_mad = 3;
-  double depth_sigma_mm = 2;
+  double depth_sigma_mm = 5;
 };
 template <class V>
 void fields(V& v, BoardParams& p) {
