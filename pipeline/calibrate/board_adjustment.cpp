@@ -14,6 +14,7 @@ namespace {
 constexpr int ir_at = 0, color_at = 9, step_at = 18, offset_at = 24, shared = 25;
 constexpr double huber = 3;               // in sigmas
 constexpr double least_sigma_px = 0.02;   // a perfect picture is not trusted without end
+constexpr double usual_offset_m = 0.03;   // Kinects: 10 to 25 mm
 constexpr double single_depth_m = 0.004;  // scatter of one square's depth, for Huber only
 
 using SharedMatrix = Eigen::Matrix<double, shared, shared>;
@@ -61,6 +62,13 @@ class Adjustment {
   // The priors, as equations without a pose.
   ViewEquations priors(const BoardSolution& at) const {
     ViewEquations result;
+    if (options_.fit_offset && options_.use_depth) {
+      Eigen::Matrix<double, shared + 6, 1> gradient = Eigen::Matrix<double, shared + 6, 1>::Zero();
+      gradient[offset_at] = 1;
+      const double weight = 1 / (usual_offset_m * usual_offset_m);
+      result.cost += weight * at.sensor.depth_offset_m * at.sensor.depth_offset_m;
+      result.add(at.sensor.depth_offset_m, gradient, weight);
+    }
     if (!options_.fit_cameras) return result;
     add_prior(at.sensor.ir, ir_at, result);
     if (at.sensor.color) add_prior(*at.sensor.color, color_at, result);

@@ -26,8 +26,9 @@ struct BoardSolution {
 // Bundle adjustment of one sensor's cameras and of the boards' poses: least squares of the corners' distances in both
 // images (Huber; each camera weighted by its own scatter) and of measured depth - offset - board plane along each ray.
 // The cameras have weak priors (principal point in the middle within 5 % of the width, square pixels within 2 %,
-// distortion of the usual size), which decide only where the boards do not: three boards, or all of them frontal.
-// Levenberg-Marquardt on the Schur complement of the poses. Poses of views that only colour has are carried along.
+// distortion of the usual size, a depth offset within 30 mm), which decide only where the boards do not: three boards,
+// or all of them frontal. Levenberg-Marquardt on the Schur complement of the poses. Poses of views that only colour has
+// are carried along.
 BoardSolution adjust_boards(const SensorBoards& boards, const BoardSolution& start, const AdjustOptions& options);
 
 // Residuals of every view: root mean square distances (NaN where the corners were not found), mean of measured depth -

@@ -67,6 +67,7 @@ inline Picture picture(const Camera& camera, const Isometry3d& camera_from_board
       if (u > -2 && v > -2 && u < grid.columns + 1 && v < grid.rows + 1)
         result.depth_m.at<float>(y, x) = static_cast<float>(on_plane.z());
     }
+  cv::GaussianBlur(result.bright.clone(), result.bright, {}, 0.7);  // the lens
   return result;
 }
 
@@ -74,7 +75,8 @@ inline BoardShot shot(const SensorCalibration& sensor, const Isometry3d& ir_from
   const Picture ir = picture(sensor.ir, ir_from_board, grid);
   BoardShot shot;
   ir.bright.convertTo(shot.ir, CV_16U, 20000);
-  cv::Mat(ir.depth_m + sensor.depth_offset_m * (ir.depth_m > 0) / 255.0).convertTo(shot.depth_mm, CV_16U, 1000);
+  cv::Mat(ir.depth_m + sensor.depth_offset_m).convertTo(shot.depth_mm, CV_16U, 1000);
+  shot.depth_mm.setTo(0, ir.depth_m == 0);
   cv::Mat grey;
   picture(*sensor.color, sensor.color_from_ir * ir_from_board, grid).bright.convertTo(grey, CV_8U, 255);
   cv::cvtColor(grey, shot.color, cv::COLOR_GRAY2BGR);
@@ -102,6 +104,14 @@ inline std::vector<Isometry3d> varied_poses(const SensorCalibration& s) {
           pose(s, g, 370, 270, 0.9, 36, 250, 20), pose(s, g, 256, 130, 1.4, 40, 310, 75),
           pose(s, g, 256, 290, 1.3, 33, 60, -25), pose(s, g, 110, 212, 1.5, 28, 130, 95),
           pose(s, g, 400, 212, 1.1, 34, 200, -5), pose(s, g, 300, 230, 0.75, 25, 280, 110)};
+}
+
+// A copy that shares no pictures.
+inline Boards copy_of(const Boards& boards) {
+  Boards copy = boards;
+  for (auto& [sensor, shots] : copy.shots)
+    for (auto& shot : shots) shot = {shot.color.clone(), shot.ir.clone(), shot.depth_mm.clone()};
+  return copy;
 }
 
 inline Boards boards(const SensorCalibration& sensor, const std::vector<Isometry3d>& poses) {

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "pipeline/calibrate/board_pictures_for_tests.h"
+#include "pipeline/calibrate/from_boards.h"
 #include "pipeline/calibrate/projection.h"
 #include "pipeline/common/color_mapping.h"
 #include "pipeline/common/depth_map.h"
@@ -28,6 +29,11 @@ CaptureSession session_with(Boards boards) {
 const Boards& good_boards() {
   static const Boards boards =
       board_pictures::boards(board_pictures::sensor(), board_pictures::varied_poses(board_pictures::sensor()));
+  return boards;
+}
+
+const SensorBoards& found_boards() {
+  static const SensorBoards boards = find_boards(good_boards(), "k1");
   return boards;
 }
 
@@ -80,10 +86,9 @@ TEST(Calibrate, BundleFindsTheKnownSensor) {
 }
 
 TEST(Calibrate, SbDistortionAndDepthPlaneFindTheKnownSensor) {
-  for (const char* variant : {"sb_distortion", "depth_plane", "automatic"}) {
-    SCOPED_TRACE(variant);
-    expect_near_truth(run(session_with(good_boards()), variant).calibration.sensors.at("k1"), 2);
-  }
+  expect_near_truth(fit_sensor(found_boards(), {}, by_depth_plane, nullptr).sensor, 2);
+  expect_near_truth(fit_sensor(found_boards(), {}, by_sb_distortion, nullptr).sensor, 2);
+  expect_near_truth(run(session_with(good_boards()), "automatic").calibration.sensors.at("k1"));
 }
 
 // The thesis knows no distortion: right on a sensor that has none, and its residual tells where there is some.
@@ -95,14 +100,14 @@ TEST(Calibrate, ThesisIsRightWithoutDistortionOnly) {
       run(session_with(board_pictures::boards(straight, board_pictures::varied_poses(straight))), "thesis");
   EXPECT_NEAR(found.calibration.sensors.at("k1").ir.fx / straight.ir.fx, 1, 0.003);
   EXPECT_LT(found.boards.at("k1").ir_rms_px, 0.1);
-  const auto bent = run(session_with(good_boards()), "thesis");
-  EXPECT_GT(bent.boards.at("k1").ir_rms_px, 0.2);
-  EXPECT_EQ(bent.calibration.sensors.at("k1").ir.distortion, (std::array<double, 5>{0, 0, 0, 0, 0}));
+  const SensorFit bent = fit_sensor(found_boards(), {}, by_thesis, nullptr);
+  EXPECT_GT(bent.report.ir_rms_px, 0.2);
+  EXPECT_EQ(bent.sensor.ir.distortion, (std::array<double, 5>{0, 0, 0, 0, 0}));
 }
 
 // Depth of the boards with the offset found is their true depth, by both ways in which later stages read depth.
 TEST(Calibrate, TheOffsetIsTakenOffByWhatReadsDepth) {
-  const SensorCalibration found = run(session_with(good_boards())).calibration.sensors.at("k1");
+  const SensorCalibration found = fit_sensor(found_boards(), {}, by_bundle, nullptr).sensor;
   const SensorCalibration truth = board_pictures::sensor();
   const auto true_m =
       board_pictures::picture(truth.ir, board_pictures::varied_poses(truth)[0], grid()).depth_m.at<float>(212, 256);
@@ -113,16 +118,18 @@ TEST(Calibrate, TheOffsetIsTakenOffByWhatReadsDepth) {
 }
 
 TEST(Calibrate, SameBytesForAnyThreadCount) {
+  Boards few = good_boards();
+  few.shots["k1"].resize(4);
   std::string bytes[2];
   for (int threads = 1; threads <= 2; ++threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    bytes[threads - 1] = to_bytes(run(session_with(good_boards())));
+    bytes[threads - 1] = to_bytes(run(session_with(few)));
   }
   EXPECT_EQ(bytes[0], bytes[1]);
 }
 
 TEST(Calibrate, TurnedCornersArePutRight) {
-  SensorBoards boards = find_boards(good_boards(), "k1");
+  SensorBoards boards = found_boards();
   const auto as_found = boards.views[3].color;
   std::reverse(boards.views[3].color.begin(), boards.views[3].color.end());
   std::reverse(boards.views[7].color.begin(), boards.views[7].color.end());
@@ -133,7 +140,7 @@ TEST(Calibrate, TurnedCornersArePutRight) {
 }
 
 TEST(Calibrate, MirroredColourIsAnInputError) {
-  Boards boards = good_boards();
+  Boards boards = board_pictures::copy_of(good_boards());
   for (auto& shot : boards.shots["k1"]) {
     cv::Mat mirrored;
     cv::flip(shot.color, mirrored, 1);
@@ -143,7 +150,8 @@ TEST(Calibrate, MirroredColourIsAnInputError) {
 }
 
 TEST(Calibrate, MirroredDepthIsAnInputError) {
-  Boards boards = good_boards();
+  Boards boards = board_pictures::copy_of(good_boards());
+  boards.shots["k1"].resize(4);
   for (auto& shot : boards.shots["k1"]) {
     cv::Mat mirrored;
     cv::flip(shot.depth_mm, mirrored, 1);
@@ -153,7 +161,7 @@ TEST(Calibrate, MirroredDepthIsAnInputError) {
 }
 
 TEST(Calibrate, BlurredCutOffAndOneSidedBoardsAreSurvived) {
-  Boards boards = good_boards();
+  Boards boards = board_pictures::copy_of(good_boards());
   auto& shots = boards.shots["k1"];
   cv::GaussianBlur(shots[1].color.clone(), shots[1].color, {}, 6);
   cv::GaussianBlur(shots[2].ir.clone(), shots[2].ir, {}, 5);
@@ -191,24 +199,24 @@ TEST(Calibrate, ThreeGoodBoardsAreEnough) {
 }
 
 TEST(Calibrate, WithoutDepthTheOffsetIsTheSessions) {
-  Boards boards = good_boards();
-  for (auto& shot : boards.shots["k1"]) shot.depth_mm = cv::Mat::zeros(shot.depth_mm.size(), CV_16U);
-  CaptureSession session = session_with(boards);
-  EXPECT_EQ(run(session).calibration.sensors.at("k1").depth_offset_m, 0);
-  session.calibration = Calibration{{{"k1", board_pictures::sensor()}}};
-  const Calibrated found = run(session);
-  EXPECT_EQ(found.calibration.sensors.at("k1").depth_offset_m, -0.014);
-  EXPECT_EQ(found.boards.at("k1").depth_views, 0);
-  expect_near_truth(found.calibration.sensors.at("k1"), 2);
+  SensorBoards boards = found_boards();
+  for (auto& view : boards.views) view.depth.clear();
+  EXPECT_EQ(fit_sensor(boards, {}, by_bundle, nullptr).sensor.depth_offset_m, 0);
+  const SensorCalibration given = board_pictures::sensor();
+  const SensorFit found = fit_sensor(boards, {}, by_bundle, &given);
+  EXPECT_EQ(found.report.depth_views, 0);
+  expect_near_truth(found.sensor, 2);
+  EXPECT_EQ(found.sensor.depth_offset_m, -0.014);
 }
 
 TEST(Calibrate, NoBoardFoundSaysWhatWasExpected) {
-  Boards boards = good_boards();
+  Boards boards = board_pictures::copy_of(good_boards());
+  boards.shots["k1"].resize(3);
   for (auto& shot : boards.shots["k1"]) shot.ir.setTo(1000);
-  EXPECT_THAT(error_of(session_with(boards)), HasSubstr("boards/k1"));
-  EXPECT_THAT(error_of(session_with(boards)),
-              HasSubstr("found the board of 7 x 5 inner corners in 0 infrared and 10 colour images of 10 shots"));
-  EXPECT_THAT(error_of(session_with(boards), "automatic"), HasSubstr("expected at least 3"));
+  for (const char* variant : {"bundle", "automatic"})
+    EXPECT_THAT(error_of(session_with(boards), variant),
+                AllOf(HasSubstr("boards/k1"), HasSubstr("expected at least 3"),
+                      HasSubstr("board of 7 x 5 inner corners in 0 infrared and 3 colour images of 3 shots")));
   CaptureSession none;
   none.sensors = {"k1"};
   EXPECT_THAT(error_of(none), HasSubstr("session.json: boards"));
@@ -216,11 +224,11 @@ TEST(Calibrate, NoBoardFoundSaysWhatWasExpected) {
 }
 
 TEST(Calibrate, OtherSignOfTheStepIsNoted) {
-  CaptureSession session = session_with(good_boards());
   SensorCalibration other = board_pictures::sensor();
   other.color_from_ir.translation().x() *= -1;
-  session.calibration = Calibration{{{"k1", other}}};
-  EXPECT_THAT(run(session).notes.at("k1"), HasSubstr("mirrored"));
+  EXPECT_THAT(fit_sensor(found_boards(), {}, by_bundle, &other).note, HasSubstr("mirrored"));
+  const SensorCalibration same = board_pictures::sensor();
+  EXPECT_EQ(fit_sensor(found_boards(), {}, by_bundle, &same).note, "");
 }
 
 TEST(Calibrate, WithoutBoardsTheSessionsCalibrationPasses) {

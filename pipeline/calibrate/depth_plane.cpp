@@ -13,6 +13,15 @@ void fields(V& v, DepthPlaneParams& p) {
   fields(v, p.boards);
 }
 
+// The depth of the boards fixes the focal length: see by_depth_plane.
+Calibrated depth_plane(const CaptureSession& session, const DepthPlaneParams& params) {
+  return calibrate_from_boards(session, params.boards, by_depth_plane);
+}
+
+const Calibrate::Variant variant{"depth_plane", depth_plane};
+
+}  // namespace
+
 // Infrared camera and depth offset together, from the corners and from the depth measured on the boards: how the depth
 // grows with distance fixes the focal length also where frontal boards leave it open. Then the colour camera by itself,
 // and the step between the two with all else fixed.
@@ -44,11 +53,4 @@ BoardSolution by_depth_plane(const SensorBoards& boards, const BoardParams& para
   return step;
 }
 
-Calibrated depth_plane(const CaptureSession& session, const DepthPlaneParams& params) {
-  return calibrate_from_boards(session, params.boards, by_depth_plane);
-}
-
-const Calibrate::Variant variant{"depth_plane", depth_plane};
-
-}  // namespace
 }  // namespace dressform

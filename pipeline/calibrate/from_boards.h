@@ -43,6 +43,9 @@ Calibrated calibrate_from_boards(const CaptureSession& session, const BoardParam
 
 // The methods of the variants.
 BoardSolution opencv_calibration(const SensorBoards& boards, bool distortion);
+BoardSolution by_thesis(const SensorBoards& boards, const BoardParams& params);
+BoardSolution by_sb_distortion(const SensorBoards& boards, const BoardParams& params);
+BoardSolution by_depth_plane(const SensorBoards& boards, const BoardParams& params);
 BoardSolution by_bundle(const SensorBoards& boards, const BoardParams& params);
 
 // Poses and residuals of given cameras: nothing but the boards moves.
