@@ -83,11 +83,11 @@ int count_of(const SensorBoards& boards, std::vector<Vector2d> BoardView::*corne
                                         [&](const BoardView& view) { return !(view.*corners).empty(); }));
 }
 
-void check_depth_shows_boards(const SensorBoards& boards, const std::vector<ViewResidual>& residuals) {
+void check_depth_shows_boards(const SensorBoards& boards, const std::vector<ViewResidual>& residuals, double offset_m) {
   int with_depth = 0, wrong = 0;
   for (const auto& residual : residuals) {
     with_depth += std::isfinite(residual.depth_m);
-    wrong += std::isfinite(residual.depth_m) && std::abs(residual.depth_m) > impossible_depth_m;
+    wrong += std::isfinite(residual.depth_m) && std::abs(residual.depth_m + offset_m) > impossible_depth_m;
   }
   if (2 * wrong > with_depth)
     throw InputError(
@@ -198,7 +198,7 @@ SensorFit fit_sensor(SensorBoards boards, const BoardParams& params, const Board
   report.used_color = count_of(boards, &BoardView::color);
   const BoardSolution measured = with_fixed_cameras(boards, fit.sensor);
   const auto residuals = view_residuals(boards, measured);
-  check_depth_shows_boards(boards, residuals);
+  check_depth_shows_boards(boards, residuals, fit.sensor.depth_offset_m);
   report.ir_rms_px = measured.ir_rms_px;
   report.color_rms_px = measured.color_rms_px;
   add_depth(residuals, report);
