@@ -83,6 +83,9 @@ BodySpec read_body(TomlSection& section) {
   BodySpec body;
   section.path("mesh", body.mesh);
   fields(section, body);
+  for (const char* key : {"sex", "stature_m", "chest_m", "waist_m", "hip_m"})
+    if (!body.sample.empty() && section.has(key))
+      section.fail(key, "found it beside sample; expected either drawn or given measures");
   return body;
 }
 

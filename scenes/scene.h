@@ -16,8 +16,12 @@ namespace dressform {
 struct BodySpec {
   std::filesystem::path mesh;  // someone's own closed body, placed as given; empty: the procedural body
   std::string sex = "male";    // proportions: "male" or "female"
+  std::string sample;          // "man" or "woman": stature and girths are drawn from the survey; empty: as given
+  int sample_seed = 1;         // which of the customers that can be drawn
   double stature_m = 1.85, chest_m = 1.01, waist_m = 0.81, hip_m = 0.91;  // girths: tape (convex hull) round the body
-  double arm_angle_deg = 16;   // upper arms out from the vertical
+  double inseam_m = 0, knee_height_m = 0, upper_arm_m = 0, forearm_m = 0;  // segments; 0: as usual with these girths
+  std::string pose = "mannequin";  // mannequin, a_pose, bent_arms
+  double arm_angle_deg = 0;    // upper arms out from the vertical; 0: the pose's own
 };
 
 struct PrintSpec {

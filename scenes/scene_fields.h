@@ -12,7 +12,14 @@ void fields(V& v, BodySpec& body) {
   v("chest_m", body.chest_m, 0.5, 1.8, "m", "tape girth round the chest, arms left out");
   v("waist_m", body.waist_m, 0.4, 1.8, "m", "tape girth round the waist");
   v("hip_m", body.hip_m, 0.5, 1.8, "m", "tape girth round the hip");
-  v("arm_angle_deg", body.arm_angle_deg, 5.0, 60.0, "deg", "upper arms out from the vertical");
+  v("inseam_m", body.inseam_m, 0.0, 1.3, "m", "height of the crotch; 0: what people of these measures have");
+  v("knee_height_m", body.knee_height_m, 0.0, 0.8, "m", "height of the middle of the kneecap; 0: likewise");
+  v("upper_arm_m", body.upper_arm_m, 0.0, 0.6, "m", "shoulder point to elbow; 0: likewise");
+  v("forearm_m", body.forearm_m, 0.0, 0.5, "m", "elbow to wrist; 0: likewise");
+  v("sample", body.sample, {"", "man", "woman"}, "draws stature and girths from the survey instead of asking for them");
+  v("sample_seed", body.sample_seed, 0, 1000000000, "", "number of the drawn customer");
+  v("pose", body.pose, {"mannequin", "a_pose", "bent_arms"}, "how the arms are held");
+  v("arm_angle_deg", body.arm_angle_deg, 0.0, 60.0, "deg", "upper arms out from the vertical; 0: the pose's own");
 }
 
 template <class V>

@@ -7,6 +7,9 @@
 
 #include "scenes/error.h"
 #include "scenes/mesh_io.h"
+#include "synthetic/body/body_measure.h"
+#include "synthetic/body/section.h"
+#include "synthetic/geometry/self_intersection.h"
 
 namespace dressform {
 namespace {
@@ -83,6 +86,59 @@ TEST(Body, RefusesWhatNoBodyMeasures) {
   EXPECT_THROW(make_body(spec_of({"female", 1.65, 0.90, 1.40, 0.95})), InputError);
   EXPECT_THROW(make_body(spec_of({"male", 1.85, 1.01, 0.81, std::nan("")})), InputError);
   EXPECT_THROW(make_body(spec_of({"child", 1.20, 0.6, 0.6, 0.6})), InputError);
+}
+
+TEST(Body, SegmentsAreAsLongAsAsked) {
+  BodySpec spec;
+  spec.inseam_m = 0.895;
+  spec.knee_height_m = 0.530;
+  spec.upper_arm_m = 0.345;
+  spec.forearm_m = 0.275;
+  const Body body = make_body(spec);
+  EXPECT_NEAR(measure_body(body.mesh, "body").landmarks.crotch, spec.inseam_m, 1e-3);
+  EXPECT_NEAR(body.joints.at("KneeLeft").y(), spec.knee_height_m, 1e-3);
+  const Vector3d shoulder = body.joints.at("ShoulderLeft"), elbow = body.joints.at("ElbowLeft");
+  const double above =
+      (body.landmarks.shoulder - shoulder.y()) * (shoulder.y() - elbow.y()) / (elbow - shoulder).norm();
+  EXPECT_NEAR((elbow - shoulder).norm() + above, spec.upper_arm_m, 1e-3);
+  EXPECT_NEAR((body.joints.at("WristLeft") - elbow).norm(), spec.forearm_m, 1e-3);
+  EXPECT_NEAR(tape_girth(body.mesh, body.landmarks.waist), spec.waist_m, 1e-3);
+  spec.inseam_m = 1.1;
+  EXPECT_THROW(make_body(spec), InputError);
+}
+
+class Poses : public testing::TestWithParam<const char*> {};
+
+TEST_P(Poses, AreClosedAndHoldTheArmsClear) {
+  for (const char* sex : {"male", "female"}) {
+    BodySpec spec = spec_of({sex, 1.70, 1.00, 0.90, 1.03});
+    spec.pose = GetParam();
+    const Body body = make_body(spec);
+    const Topology shape = topology(body.mesh);
+    EXPECT_TRUE(shape.closed());
+    EXPECT_EQ(shape.components, 1);
+    EXPECT_EQ(shape.euler(), 2);
+    EXPECT_EQ(self_intersections(body.mesh), 0);
+    EXPECT_NEAR(tape_girth(body.mesh, body.landmarks.hip), 1.03, 1e-3);
+    // An arm on each side of the trunk.
+    EXPECT_EQ(horizontal_section(body.mesh, body.landmarks.chest).size(), 3u);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(All, Poses, testing::Values("mannequin", "a_pose", "bent_arms"));
+
+TEST(Body, PosesDiffer) {
+  BodySpec spec;
+  const auto bend_deg = [&](const char* pose) {
+    spec.pose = pose;
+    const Body body = make_body(spec);
+    const Vector3d upper = body.joints.at("ElbowLeft") - body.joints.at("ShoulderLeft");
+    const Vector3d lower = body.joints.at("WristLeft") - body.joints.at("ElbowLeft");
+    return std::acos(upper.normalized().dot(lower.normalized())) * 180 / M_PI;
+  };
+  EXPECT_NEAR(bend_deg("mannequin"), 8, 0.5);
+  EXPECT_NEAR(bend_deg("a_pose"), 4, 0.5);
+  EXPECT_NEAR(bend_deg("bent_arms"), 18, 0.5);
+  EXPECT_THROW(bend_deg("headstand"), InputError);
 }
 
 TEST(Body, OwnMeshIsMeasuredBySlices) {

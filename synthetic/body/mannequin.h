@@ -5,16 +5,12 @@
 
 #include "synthetic/body/anthropometry.h"
 #include "synthetic/body/body.h"
+#include "synthetic/body/figure.h"
 #include "synthetic/geometry/solid.h"
 
 namespace dressform {
 
-// Factors on the torso's breadth and depth at the three measured heights; what the girths are solved with.
-struct GirthFactors {
-  double chest = 1, waist = 1, hip = 1;
-};
-
-// The shop mannequin as a field: left half, mirrored at x = 0. World frame, stands on y = 0, faces +z.
+// A standing figure as a field: left half, mirrored at x = 0. World frame, stands on y = 0, faces +z.
 struct Mannequin {
   Solid left_half;
   Eigen::AlignedBox3d box;
@@ -24,7 +20,12 @@ struct Mannequin {
   double field(const Vector3d& p) const { return left_half.field(Vector3d(std::abs(p.x()), p.y(), p.z())); }
 };
 
-// Landmark heights and joints follow from the proportions alone, not from the factors.
-Mannequin make_mannequin(const BodySpec& spec, const Proportions& proportions, const GirthFactors& factors);
+// Landmark heights and joints follow from the sizes alone, not from the shape.
+Mannequin make_mannequin(const BodySpec& spec, const BodySizes& sizes, const FigureShape& shape);
+
+// Height of the crotch: the lowest place of the trunk in the middle, above knee height.
+double crotch_height(const Mannequin& mannequin);
+// Height of the crown.
+double top_height(const Mannequin& mannequin);
 
 }  // namespace dressform
