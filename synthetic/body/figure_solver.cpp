@@ -32,7 +32,7 @@ class LevelSolver {
     const double left = 0.5 * (mend_breadth + mend_depth) * girth - girth_, moved = level_.fullness - before_;
     double slope = 0.15 * girth_;
     if (rounds_++ > 0 && std::abs(moved) > 1e-6)
-      slope = std::clamp((left - left_before_) / moved, 0.02 * girth_, 0.5 * girth_);
+      slope = std::clamp((left - left_before_) / moved, 0.03 * girth_, 0.5 * girth_);
     before_ = level_.fullness;
     left_before_ = left;
     const double away_before = away();
@@ -46,7 +46,7 @@ class LevelSolver {
  private:
   // By how many deviations breadth and depth go away from their means.
   double away() const {
-    const double full = level_.fullness, much = std::max(0.0, std::abs(full) - 2.6);
+    const double full = level_.fullness, much = std::max(0.0, std::abs(full) - 3);
     return 0.94 * std::tanh(0.8 * full) + 3 * std::copysign(much, full);
   }
 
@@ -109,8 +109,10 @@ Mannequin solve_figure(const BodySpec& spec, const Prediction& sizes, const Solv
                       std::abs(hip.update(found.hip_girth, found.hip_breadth, found.hip_depth))});
     const double limbs = follow_limbs(sizes, found, shape);
     const double ends = follow_ends(mannequin, wanted_crotch, shape);
-    // Nobody asks for the limbs' girths: after so many rounds they are as near as this figure's can be.
-    if (worst < 1e-4 && ((limbs < 5e-4 && ends < 1e-3) || round >= 10)) {
+    // Nobody asks for the limbs' girths: after some rounds they are as near as this figure's can be. What is left of
+    // the girths goes with what the mesh loses.
+    const bool late = round >= 10;
+    if (worst < (late ? 4e-4 : 1e-4) && (late || (limbs < 5e-4 && ends < 1e-3))) {
       shape = used;
       return mannequin;
     }

@@ -19,7 +19,7 @@ std::vector<LimbSection> trunk(const FigurePlan& plan) {
                low = std::min(m.crotch + plan.shape.crotch_m, m.hip - 0.034);
   const double neck_half = 0.5 * p.neck_girth / M_PI, acromion = 0.5 * p.biacromial_breadth, yoke = m.neck - m.shoulder;
   // What the breast and the shoulder blades add to the chest is left out here.
-  const double chest_front = plan.female ? 0.39 : 0.498, chest_back = 0.495;
+  const double chest_front = plan.female ? 0.41 : 0.498, chest_back = 0.495;
   const double chest = plan.chest_depth * (chest_front + chest_back),
                chest_part = chest_front / (chest_front + chest_back);
   const double hip_back = 0.44, hip_front = 0.44;  // the buttocks make up the rest
@@ -64,9 +64,9 @@ void add_chest(const FigurePlan& plan, Solid& solid) {
   const BodyLandmarks& m = plan.marks;
   const double half = plan.chest_half, depth = plan.chest_depth, h = m.stature;
   if (plan.female) {
-    const double size = 0.150 * depth + 0.026, x = 0.58 * half, tip = 0.5 * depth;
+    const double size = 0.150 * depth + 0.026, x = 0.54 * half, tip = 0.5 * depth;
     const Vector3d center(x, m.chest - 0.002 * h, tip - 0.92 * size);
-    solid.add_ellipsoid(center, {1.08 * size, size, 0.92 * size}, 0.030);
+    solid.add_ellipsoid(center, {0.96 * size, size, 0.92 * size}, 0.030);
     solid.add_capsule(center + Vector3d(0.012, 0.062 * h / 1.63, -0.55 * size), center + Vector3d(0, 0, -0.10 * size),
                       0.45 * size, 0.78 * size, 0.035);
   } else {
