@@ -128,6 +128,15 @@ TEST_F(SceneFile, OwnMeshes) {
   EXPECT_EQ(scene.garments[1].slot, "top");
 }
 
+TEST_F(SceneFile, CustomersAreSampledInsteadOfGiven) {
+  const Scene scene = read(base() + kShirt + "[user]\nsample = \"woman\"\nsample_seed = 7\npose = \"a_pose\"\n");
+  EXPECT_EQ(scene.user.sample, "woman");
+  EXPECT_EQ(scene.user.sample_seed, 7);
+  EXPECT_EQ(scene.user.pose, "a_pose");
+  EXPECT_THAT(error_of(base() + kShirt + "[user]\nsample = \"woman\"\nhip_m = 1.0\n"), HasSubstr("beside sample"));
+  EXPECT_THAT(error_of(base() + kShirt + "[user]\nsample = \"child\"\n"), HasSubstr("woman"));
+}
+
 TEST_F(SceneFile, KeysOverrideTheFileTheyStandOn) {
   const auto shirt = (kLibrary / "garments/shirt1.toml").string();
   const Scene scene = read(base() + "[[garment]]\nfile = \"" + shirt + "\"\nease_m = 0.2\n");
