@@ -9,7 +9,7 @@
 namespace dressform {
 
 struct ViewParams {
-  double erode_m = 0.002;        // taken off the masks, so that neither skin nor background bleeds in
+  double erode_m = 0.005;        // taken off the masks, so that neither skin nor background bleeds in
   double feather_m = 0.006;      // over which trust rises to 1
   double occluder_m = 0.005;     // half width of the window in which an occluder is looked for
   double occluder_gap_m = 0.03;  // how much nearer an occluder must be
