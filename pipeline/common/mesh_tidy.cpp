@@ -1,53 +1,29 @@
 #include "pipeline/common/mesh_tidy.h"
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include <utility>
+
+#include "pipeline/common/cgal_mesh.h"
+
 namespace dressform {
 namespace {
 
 namespace sms = CGAL::Surface_mesh_simplification;
-using Kernel = CGAL::Simple_cartesian<double>;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-
-Surface to_cgal(const Mesh& mesh) {
-  Surface surface;
-  for (const Vector3d& v : mesh.vertices) surface.add_vertex({v.x(), v.y(), v.z()});
-  for (const Vector3i& t : mesh.triangles)
-    surface.add_face(Surface::Vertex_index(t[0]), Surface::Vertex_index(t[1]), Surface::Vertex_index(t[2]));
-  return surface;
-}
-
-Mesh from_cgal(Surface& surface) {
-  surface.collect_garbage();
-  Mesh mesh;
-  for (const auto v : surface.vertices()) {
-    const auto& p = surface.point(v);
-    mesh.vertices.emplace_back(p.x(), p.y(), p.z());
-  }
-  for (const auto f : surface.faces()) {
-    Vector3i t;
-    int k = 0;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) t[k++] = static_cast<int>(v.idx());
-    mesh.triangles.push_back(t);
-  }
-  return mesh;
-}
 
 }  // namespace
 
 Mesh tidied(const Mesh& mesh, double shortest_m) {
   if (mesh.triangles.empty() || !topology(mesh).closed()) return mesh;
-  Surface surface = to_cgal(mesh);
+  CgalSurface surface = to_cgal(mesh);
   const sms::Edge_length_stop_predicate<double> stop(shortest_m);
-  sms::edge_collapse(
-      surface, stop,
-      CGAL::parameters::get_cost(sms::Edge_length_cost<Surface>()).get_placement(sms::Midpoint_placement<Surface>()));
-  return evened(from_cgal(surface), 3);
+  sms::edge_collapse(surface, stop,
+                     CGAL::parameters::get_cost(sms::Edge_length_cost<CgalSurface>())
+                         .get_placement(sms::Midpoint_placement<CgalSurface>()));
+  return evened(from_cgal(std::move(surface)), 3);
 }
 
 Mesh evened(const Mesh& mesh, int rounds) {
