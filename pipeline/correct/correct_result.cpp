@@ -1,7 +1,10 @@
 #include "pipeline/correct/correct_result.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
+#include "pipeline/common/intersections.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -22,6 +25,19 @@ void add_corrected(const std::string& name, const TexturedMesh& before, std::vec
   result.moved_vertices[name] = moved;
   result.largest_move_m[name] = largest;
   result.intersecting_pairs[name] = intersecting_pairs;
+}
+
+CorrectedGarments each_vertex_moved(const BodyModel& user, const FittedGarments& fitted,
+                                    const std::function<Vector3d(const Vector3d&)>& target) {
+  CorrectedGarments result;
+  for (const auto& [name, garment] : fitted.garments) {
+    Mesh moved = garment.mesh;
+    tbb::parallel_for(std::size_t{0}, moved.vertices.size(),
+                      [&](std::size_t v) { moved.vertices[v] = target(garment.mesh.vertices[v]); });
+    const auto pairs = static_cast<int>(intersecting_pairs(moved, user.body).size());
+    add_corrected(name, garment, std::move(moved.vertices), pairs, result);
+  }
+  return result;
 }
 
 void require_user(const BodyModel& user, const std::string& variant) {

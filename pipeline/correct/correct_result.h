@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,11 @@ namespace dressform {
 // Puts a garment with its new vertices into the result, with how many moved and how far.
 void add_corrected(const std::string& name, const TexturedMesh& before, std::vector<Vector3d> vertices,
                    int intersecting_pairs, CorrectedGarments& result);
+
+// Every vertex of every garment goes where `target` says, each for itself; pairs that still intersect the user's body
+// are counted by exact predicates.
+CorrectedGarments each_vertex_moved(const BodyModel& user, const FittedGarments& fitted,
+                                    const std::function<Vector3d(const Vector3d&)>& target);
 
 // Throws InputError naming the variant when the user's body is missing.
 void require_user(const BodyModel& user, const std::string& variant);

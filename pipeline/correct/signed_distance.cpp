@@ -1,10 +1,6 @@
 // Each vertex of cloth inside the body, or nearer than the gap, goes to the nearest point of the surface and the gap
 // beyond it: once, and nothing else moves.
-#include <tbb/parallel_for.h>
 
-#include <cmath>
-
-#include "pipeline/common/intersections.h"
 #include "pipeline/common/mesh_query.h"
 #include "pipeline/correct/correct_result.h"
 
@@ -23,22 +19,14 @@ CorrectedGarments signed_distance(const BodyModel& user, const FittedGarments& f
                                   const SignedDistanceParams& params) {
   require_user(user, "correct.signed_distance");
   const MeshQuery body(user.body);
-  CorrectedGarments result;
-  for (const auto& [name, garment] : fitted.garments) {
-    Mesh moved = garment.mesh;
-    tbb::parallel_for(std::size_t{0}, moved.vertices.size(), [&](std::size_t v) {
-      const Vector3d p = moved.vertices[v];
-      const auto closest = body.closest(p);
-      const double distance = body.signed_distance(p, closest);
-      if (distance >= params.gap_m) return;
-      const Vector3d out = (distance < 0 ? -1 : 1) * (p - closest.point);
-      const Vector3d direction = out.norm() > 1e-6 ? Vector3d(out.normalized()) : body.normal(closest.triangle);
-      moved.vertices[v] = closest.point + params.gap_m * direction;
-    });
-    const auto pairs = static_cast<int>(intersecting_pairs(moved, user.body).size());
-    add_corrected(name, garment, std::move(moved.vertices), pairs, result);
-  }
-  return result;
+  return each_vertex_moved(user, fitted, [&](const Vector3d& p) -> Vector3d {
+    const auto closest = body.closest(p);
+    const double distance = body.signed_distance(p, closest);
+    if (distance >= params.gap_m) return p;
+    const Vector3d out = (distance < 0 ? -1 : 1) * (p - closest.point);
+    const Vector3d direction = out.norm() > 1e-6 ? Vector3d(out.normalized()) : body.normal(closest.triangle);
+    return closest.point + params.gap_m * direction;
+  });
 }
 
 const Correct::Variant variant{"signed_distance", signed_distance};

@@ -1,11 +1,8 @@
 // The thesis's correction (section 3.6): the nearest centroid of the body's faces says by its normal whether a vertex
 // of cloth is inside. Its text pushes along the vector from the centroid to the vertex, which leads deeper; here the
 // vertex goes out along the normal, to the wanted distance from the face's plane.
-#include <tbb/parallel_for.h>
-
 #include <nanoflann.hpp>
 
-#include "pipeline/common/intersections.h"
 #include "pipeline/correct/correct_result.h"
 
 namespace dressform {
@@ -46,20 +43,13 @@ CorrectedGarments thesis_centroid(const BodyModel& user, const FittedGarments& f
   const Faces faces(user.body);
   Tree tree(3, faces);
   tree.buildIndex();
-  CorrectedGarments result;
-  for (const auto& [name, garment] : fitted.garments) {
-    Mesh moved = garment.mesh;
-    tbb::parallel_for(std::size_t{0}, moved.vertices.size(), [&](std::size_t v) {
-      std::uint32_t nearest = 0;
-      double squared_distance = 0;
-      if (tree.knnSearch(moved.vertices[v].data(), 1, &nearest, &squared_distance) == 0) return;
-      const double height = faces.normals[nearest].dot(moved.vertices[v] - faces.centroids[nearest]);
-      if (height < 0) moved.vertices[v] += (params.gap_m - height) * faces.normals[nearest];
-    });
-    const auto pairs = static_cast<int>(intersecting_pairs(moved, user.body).size());
-    add_corrected(name, garment, std::move(moved.vertices), pairs, result);
-  }
-  return result;
+  return each_vertex_moved(user, fitted, [&](const Vector3d& p) -> Vector3d {
+    std::uint32_t nearest = 0;
+    double squared_distance = 0;
+    if (tree.knnSearch(p.data(), 1, &nearest, &squared_distance) == 0) return p;
+    const double height = faces.normals[nearest].dot(p - faces.centroids[nearest]);
+    return height < 0 ? Vector3d(p + (params.gap_m - height) * faces.normals[nearest]) : p;
+  });
 }
 
 const Correct::Variant variant{"thesis_centroid", thesis_centroid};
