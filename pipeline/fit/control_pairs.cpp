@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "pipeline/fit/ease.h"
-
 namespace dressform {
 namespace {
 
@@ -65,6 +63,12 @@ Ring trunk_ring(const Side& side, double y, int angles, bool below_armpit) {
     for (auto& hit : result)
       if (hit && on_arm(side.body, *hit)) hit.reset();
   return result;
+}
+
+// Height on either body at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 armpit, 4 neck, 5 top of the head.
+double trunk_height(const StandingBody& body, double t) {
+  return height_at(
+      {body.crotch_y, body.hip_y, body.waist_y, body.armpit_y, body.neck_y, body.limbs.floor_y + body.stature}, t);
 }
 
 void add_trunk(const Side& naked, const Side& user, const ControlPairParams& params, std::vector<ControlPair>& pairs) {

@@ -53,9 +53,7 @@ std::optional<double> ease_at(const Mesh& garment, const StandingBody& body, dou
 
 // Height at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 chest, 4 armpit.
 double tape_height(const StandingBody& body, double t) {
-  const double marks[] = {body.crotch_y, body.hip_y, body.waist_y, body.chest_y, body.armpit_y};
-  const int i = std::clamp(static_cast<int>(t), 0, 3);
-  return marks[i] + (t - i) * (marks[i + 1] - marks[i]);
+  return height_at({body.crotch_y, body.hip_y, body.waist_y, body.chest_y, body.armpit_y}, t);
 }
 
 // Moves the cloth away from the trunk's axis by what is wanted near its height, faded over the height.
@@ -80,13 +78,6 @@ void widen(const StandingBody& user, const std::vector<double>& weights,
 }
 
 }  // namespace
-
-double trunk_height(const StandingBody& body, double t) {
-  const double marks[] = {body.crotch_y, body.hip_y,  body.waist_y,
-                          body.armpit_y, body.neck_y, body.limbs.floor_y + body.stature};
-  const int i = std::clamp(static_cast<int>(t), 0, 4);
-  return marks[i] + (t - i) * (marks[i + 1] - marks[i]);
-}
 
 std::vector<Vector3d> with_ease_kept(const Mesh& before, const StandingBody& naked, const Mesh& fitted,
                                      const StandingBody& user, const std::vector<double>& weights, double largest_m,

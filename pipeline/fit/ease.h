@@ -14,7 +14,4 @@ std::vector<Vector3d> with_ease_kept(const Mesh& before, const StandingBody& nak
                                      const StandingBody& user, const std::vector<double>& weights, double largest_m,
                                      int rounds);
 
-// Height at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 armpit, 4 neck, 5 top of the head.
-double trunk_height(const StandingBody& body, double t);
-
 }  // namespace dressform

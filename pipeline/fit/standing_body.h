@@ -26,6 +26,9 @@ struct StandingBody {
   TrunkOutline outline_at(double y) const;        // of the level; empty where there is none
 };
 
+// Height at part t of the way along the marks (at least two): 0 the first, 1 the second; in between linear.
+double height_at(const std::vector<double>& marks, double t);
+
 StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front_hint = {});
 
 // The user with `front` and `left` turned to agree with the naked body's, whatever the headings of the two scans: the

@@ -29,6 +29,11 @@ double upper_end(std::vector<double> values) {
   return -lower_end(std::move(values));
 }
 
+// Height of an arm's axis at Limb::along, or of its root if that is lower.
+double lowest_of_arm(const Limb& arm, double along) {
+  return std::min(arm.root.y(), arm.root.y() + arm.direction.y() * along);
+}
+
 bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
 bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
 
@@ -235,15 +240,6 @@ GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud
   extent.forked = garment == "bottom" && goes_round_each_leg(around_legs, limbs, extent.bottom_y);
   return extent;
 }
-
-namespace {
-
-// Height of an arm's axis at Limb::along, or of its root if that is lower.
-double lowest_of_arm(const Limb& arm, double along) {
-  return std::min(arm.root.y(), arm.root.y() + arm.direction.y() * along);
-}
-
-}  // namespace
 
 CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment,
                          const GarmentExtent& extent, double margin_m)
