@@ -41,6 +41,12 @@ struct CaptureSession {
 // numbers, gaps in a scan and paths that leave the folder throw InputError naming file and field. Never opens `truth/`.
 CaptureSession read_capture_session(const std::filesystem::path& folder);
 
+// The same without its images, which are neither opened nor looked for: as many empty ones as there are.
+CaptureSession read_session_outline(const std::filesystem::path& folder);
+
+// Names of sensors become folders: letters, digits, `_`, `-` and `.` (not first).
+bool is_sensor_name(const std::string& name);
+
 // Writes to a temporary folder beside `folder`, then renames it. Throws InputError when `folder` exists.
 void write_capture_session(const std::filesystem::path& folder, const CaptureSession& session);
 

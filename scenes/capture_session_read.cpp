@@ -18,9 +18,7 @@ namespace fs = std::filesystem;
 // Names become folders: none may lead out of the session.
 std::string safe_name(const JsonValue& value) {
   const std::string name = value.text();
-  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  if (name.empty() || name[0] == '.' || name.size() > 100 || name.find_first_not_of(allowed) != name.npos)
-    value.fail("found \"" + name + "\"; expected letters, digits, _, - and . (not first)");
+  if (!is_sensor_name(name)) value.fail("found \"" + name + "\"; expected letters, digits, _, - and . (not first)");
   return name;
 }
 
@@ -42,7 +40,7 @@ class Reader {
     root_ = fs::canonical(folder);
   }
 
-  CaptureSession read() {
+  CaptureSession read(bool with_images) {
     const JsonValue file = read_json(inside("session.json"), session_layout::kFormat, session_layout::kVersion);
     session_.name = file.at("name").text();
     if (file.has("created_by")) session_.created_by = file.at("created_by").text();
@@ -55,7 +53,7 @@ class Reader {
     read_shots(file.at("shots"), "naked", session_.naked);
     read_shots(file.at("shots"), "dressed", session_.dressed);
     read_scans(file.at("scans"));
-    decode();
+    if (with_images) decode();
     return std::move(session_);
   }
 
@@ -241,6 +239,13 @@ class Reader {
 
 }  // namespace
 
-CaptureSession read_capture_session(const fs::path& folder) { return Reader(folder).read(); }
+bool is_sensor_name(const std::string& name) {
+  const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  return !name.empty() && name[0] != '.' && name.size() <= 100 && name.find_first_not_of(allowed) == name.npos;
+}
+
+CaptureSession read_capture_session(const fs::path& folder) { return Reader(folder).read(true); }
+
+CaptureSession read_session_outline(const fs::path& folder) { return Reader(folder).read(false); }
 
 }  // namespace dressform

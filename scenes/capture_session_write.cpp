@@ -9,6 +9,7 @@
 #include "scenes/hash.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
+#include "scenes/session_folder.h"
 #include "scenes/session_layout.h"
 
 namespace dressform {
@@ -92,34 +93,40 @@ void list_boards(const fs::path& folder, const Boards& boards, std::vector<Pictu
   }
 }
 
-void write_all(const fs::path& folder, const CaptureSession& session) {
-  std::vector<PictureFile> files;
-  list_shots(folder / "naked", session.naked, files);
-  list_shots(folder / "dressed", session.dressed, files);
-  for (const auto& [name, scan] : session.scans) list_scan(folder / name, scan, files);
-  if (session.boards) list_boards(folder / "boards", *session.boards, files);
-  tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t i) { write_png(files[i].path, *files[i].image); });
-  if (session.calibration) write_calibration(folder / "calibration.json", *session.calibration);
-  write_json(folder / "session.json", session_json(session));
-}
-
 }  // namespace
 
+SessionFolder::SessionFolder(const fs::path& folder) : target_(fs::absolute(folder).lexically_normal()) {
+  if (!target_.has_filename()) target_ = target_.parent_path();  // "out/" means "out"
+  if (fs::exists(target_)) throw InputError(folder.string(), "is there already; expected a new folder");
+  std::error_code error;
+  fs::create_directories(target_.parent_path(), error);
+  temporary_ = target_.parent_path() / (".session_" + std::to_string(getpid()) + ".part");
+  fs::remove_all(temporary_, error);
+  if (error || !fs::create_directory(temporary_, error))
+    throw InputError(folder.string(), "cannot be written; expected a writable folder above it");
+}
+
+SessionFolder::~SessionFolder() {
+  std::error_code ignored;
+  if (!finished_) fs::remove_all(temporary_, ignored);
+}
+
+void SessionFolder::finish(const CaptureSession& outline) {
+  if (outline.calibration) write_calibration(temporary_ / "calibration.json", *outline.calibration);
+  write_json(temporary_ / "session.json", session_json(outline));
+  fs::rename(temporary_, target_);
+  finished_ = true;
+}
+
 void write_capture_session(const fs::path& folder, const CaptureSession& session) {
-  fs::path target = fs::absolute(folder).lexically_normal();
-  if (!target.has_filename()) target = target.parent_path();  // "out/" means "out"
-  if (fs::exists(target)) throw InputError(folder.string(), "is there already; expected a new folder");
-  fs::create_directories(target.parent_path());
-  const fs::path temporary = target.parent_path() / (".session_" + std::to_string(getpid()) + ".part");
-  fs::remove_all(temporary);
-  fs::create_directories(temporary);
-  try {
-    write_all(temporary, session);
-    fs::rename(temporary, target);
-  } catch (...) {
-    fs::remove_all(temporary);
-    throw;
-  }
+  SessionFolder writer(folder);
+  std::vector<PictureFile> files;
+  list_shots(writer.temporary() / "naked", session.naked, files);
+  list_shots(writer.temporary() / "dressed", session.dressed, files);
+  for (const auto& [name, scan] : session.scans) list_scan(writer.temporary() / name, scan, files);
+  if (session.boards) list_boards(writer.temporary() / "boards", *session.boards, files);
+  tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t i) { write_png(files[i].path, *files[i].image); });
+  writer.finish(session);
 }
 
 std::string session_content_hash(const fs::path& folder) {

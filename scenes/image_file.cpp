@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "scenes/error.h"
@@ -12,7 +13,8 @@
 namespace dressform {
 
 const ImageKind kDepthImage{CV_16UC1, "16-bit grey"}, kIndexImage{CV_8UC1, "8-bit grey"},
-    kColorImage{CV_8UC3, "8-bit colour without transparency"};
+    kColorImage{CV_8UC3, "8-bit colour without transparency"},
+    kColorOrGreyImage{CV_8UC3, "8-bit colour or grey without transparency", true};
 
 namespace {
 
@@ -76,8 +78,8 @@ void check_png(const std::filesystem::path& file, const Bytes& bytes, const Imag
     if (at == 8) {
       if (std::memcmp(&bytes[12], "IHDR", 4) != 0 || length != 13) damaged();
       const int bits = bytes[24], color = bytes[25];
-      const bool right =
-          bits == (CV_MAT_DEPTH(kind.type) == CV_16U ? 16 : 8) && color == (kind.type == CV_8UC3 ? 2 : 0);
+      const bool right = bits == (CV_MAT_DEPTH(kind.type) == CV_16U ? 16 : 8) &&
+                         (color == (kind.type == CV_8UC3 ? 2 : 0) || (color == 0 && kind.grey_too));
       static const char* colors[] = {
           "grey", "?", "colour", "palette", "grey with transparency", "?", "colour with transparency"};
       if (!right)
@@ -116,6 +118,7 @@ cv::Mat read_image(const std::filesystem::path& file, const ImageKind& kind, cv:
   } catch (const cv::Exception&) {
   }
   if (image.empty()) throw InputError(file.string(), "is damaged; expected an image");
+  if (kind.grey_too && image.type() == CV_8UC1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
   if (image.type() != kind.type)
     throw InputError(file.string(), "found " + std::to_string(image.channels()) + " channels of " +
                                         std::to_string(8 * image.elemSize1()) + " bits; expected " + kind.name);

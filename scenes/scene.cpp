@@ -7,7 +7,6 @@
 #include "scenes/toml_section.h"
 
 namespace dressform {
-namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
@@ -25,6 +24,8 @@ Isometry3d world_from_placed_sensor(const SensorPlace& place) {
   world_from_sensor.translation() = outward * place.distance_m + Vector3d(0, place.height_m, 0);
   return world_from_sensor;
 }
+
+namespace {
 
 Camera read_camera(TomlSection& section) {
   Camera camera;

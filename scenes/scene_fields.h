@@ -106,4 +106,7 @@ void fields(V& v, SensorPlace& place) {
   v("roll_deg", place.roll_deg, -180.0, 180.0, "deg", "its right side down");
 }
 
+// Where the sensor's IR camera stands: on the circle round the world's vertical axis, looking at the axis.
+Isometry3d world_from_placed_sensor(const SensorPlace& place);
+
 }  // namespace dressform

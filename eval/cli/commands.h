@@ -9,6 +9,8 @@ using Command = std::function<int()>;
 
 Command add_run_command(CLI::App& app);
 Command add_synthesize_command(CLI::App& app);
+Command add_import_command(CLI::App& app);
+Command add_inspect_command(CLI::App& app);
 Command add_reconstruct_command(CLI::App& app);
 Command add_calibrate_command(CLI::App& app);
 Command add_render_command(CLI::App& app);

@@ -4,6 +4,7 @@
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
+#include "scenes/import/import.h"
 #include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
@@ -24,14 +25,19 @@ void print_variant(const std::string& name, bool is_default, const std::vector<F
   for (const auto& field : fields) print_field(field);
 }
 
+// Whether this registry, which is no stage, was asked for.
+template <class Family>
+bool print_family(const std::string& only) {
+  if (!only.empty() && only != Family::name()) return false;
+  fmt::print("{}\n", Family::name());
+  for (const auto& name : Family::names())
+    print_variant(name, name == Family::default_variant(), Family::at(name).fields);
+  return true;
+}
+
 int print_variants(const std::string& only) {
-  bool found = only.empty();
-  if (only.empty() || only == "sensor") {
-    found = true;
-    fmt::print("sensor\n");
-    for (const auto& name : SensorModel::names())
-      print_variant(name, name == SensorModel::default_variant(), SensorModel::at(name).fields);
-  }
+  bool found = print_family<Importer>(only);
+  found = print_family<SensorModel>(only) || found;
   for (const auto& stage : describe_stages()) {
     if (!only.empty() && only != stage.name) continue;
     found = true;
@@ -40,7 +46,7 @@ int print_variants(const std::string& only) {
       print_variant(variant.name, variant.name == stage.default_variant, variant.fields);
   }
   if (!found)
-    throw InputError("stage " + only, "not known; expected sensor or a stage that `dressform variants` lists");
+    throw InputError("stage " + only, "not known; expected import, sensor or a stage that `dressform variants` lists");
   return kSuccess;
 }
 

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <regex>
+
+#include "scenes/error.h"
+#include "scenes/image_file.h"
+#include "scenes/import/import.h"
+#include "scenes/import/opencv_yaml.h"
+
+// Folders of iai_kinect2 (Wiedemeyer, University of Bremen, 2014-2015): shots NNNN_sync_color.png, NNNN_sync_ir.png,
+// NNNN_sync_depth.png of kinect2_calibration, and its results calib_color.yaml, calib_ir.yaml, calib_pose.yaml (colour
+// from infrared, metres) and calib_depth.yaml (millimetres to add to measured depth). kinect2_calibration also takes
+// colour (NNNN_color.png) and infrared (NNNN_ir.png, NNNN_depth.png) by themselves, at different times.
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct IaiKinect2Params {
+  bool separate = false;
+};
+
+template <class V>
+void fields(V& v, IaiKinect2Params& p) {
+  v("separate", p.separate, "take NNNN_color.png, NNNN_ir.png and NNNN_depth.png of one number for one moment");
+}
+
+struct FoundFrames {
+  std::map<long, RecordedFrame> synchronised, separate;  // by number
+};
+
+FoundFrames find_frames(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw InputError(folder.string(), "is missing; expected the folder of a recording");
+  static const std::regex form("([0-9]{1,9})(_sync)?_(color|ir|depth)\\.(png|jpg)");
+  FoundFrames found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::smatch parts;
+    const std::string name = entry.path().filename().string();
+    if (!std::regex_match(name, parts, form)) continue;
+    RecordedFrame& frame = (parts[2].matched ? found.synchronised : found.separate)[std::stol(parts[1])];
+    fs::path& path = parts[3] == "color" ? frame.color : parts[3] == "ir" ? frame.ir : frame.depth;
+    if (!path.empty())
+      throw InputError(entry.path().string(),
+                       "found another image of the same number, " + path.filename().string() + "; expected one");
+    path = entry.path();
+  }
+  return found;
+}
+
+void check_whole(const fs::path& folder, long number, bool synchronised, const RecordedFrame& frame) {
+  for (const auto& [path, what] : {std::pair(&frame.color, "color"), {&frame.ir, "ir"}, {&frame.depth, "depth"}})
+    if (path->empty())
+      throw InputError((folder / fmt::format("{:04d}{}_{}.png", number, synchronised ? "_sync" : "", what)).string(),
+                       "is missing; expected color, ir and depth of every shot");
+}
+
+std::vector<RecordedFrame> frames_for(const fs::path& folder, const RecordingUse& use, bool separate,
+                                      std::vector<std::string>& notes) {
+  const FoundFrames found = find_frames(folder);
+  if (found.synchronised.empty() && found.separate.empty())
+    throw InputError(folder.string(),
+                     "found no recorded images; expected NNNN_sync_color.png, NNNN_sync_ir.png and "
+                     "NNNN_sync_depth.png");
+  if (use == RecordingUse::scan) separate = found.synchronised.empty();  // depth alone needs no partner in time
+  if (!separate && found.synchronised.empty())
+    throw InputError(folder.string(),
+                     "found colour and infrared of different moments only; expected synchronised "
+                     "NNNN_sync_*.png, or --set import.separate=true where nothing moved between");
+  const auto& chosen = separate ? found.separate : found.synchronised;
+  if (const std::size_t left = (separate ? found.synchronised : found.separate).size(); left > 0)
+    notes.push_back(fmt::format("{} shots left out: {}", left,
+                                separate ? "synchronised ones" : "colour or infrared by itself, not synchronised"));
+  std::vector<RecordedFrame> frames;
+  for (const auto& [number, frame] : chosen) {
+    if (use != RecordingUse::scan) check_whole(folder, number, !separate, frame);
+    if (!frame.depth.empty()) frames.push_back(frame);
+  }
+  if (frames.empty()) throw InputError(folder.string(), "found no depth images; expected NNNN_depth.png");
+  return frames;
+}
+
+// Camera of the size of `image`.
+Camera read_camera(const fs::path& file, cv::Size size) {
+  const OpenCvYaml yaml(file);
+  const cv::Mat k = yaml.matrix("cameraMatrix", 3, 3), d = yaml.matrix("distortionCoefficients", 0, 0);
+  Camera camera{size.width,         size.height, k.at<double>(0, 0), k.at<double>(1, 1), k.at<double>(0, 2),
+                k.at<double>(1, 2), {}};
+  if (!(camera.fx >= 1 && camera.fy >= 1)) yaml.fail("cameraMatrix", "found no focal lengths; expected pixels");
+  if (std::min(d.rows, d.cols) != 1 || d.total() < 4)
+    yaml.fail("distortionCoefficients", "found a matrix; expected a row of 5 numbers");
+  for (int i = 0; i < static_cast<int>(d.total()); ++i) {
+    if (i < 5) camera.distortion[i] = d.at<double>(i);
+    if (i >= 5 && d.at<double>(i) != 0)
+      yaml.fail("distortionCoefficients", fmt::format("found {} coefficients (the rational model); expected 5, which "
+                                                      "is all that a session's cameras have",
+                                                      d.total()));
+  }
+  return camera;
+}
+
+Isometry3d read_step(const fs::path& file) {
+  const OpenCvYaml yaml(file);
+  const cv::Mat rotation = yaml.matrix("rotation", 3, 3), translation = yaml.matrix("translation", 3, 1);
+  auto rows = nlohmann::json::array();
+  for (int y = 0; y < 3; ++y)
+    rows.push_back(
+        {rotation.at<double>(y, 0), rotation.at<double>(y, 1), rotation.at<double>(y, 2), translation.at<double>(y)});
+  rows.push_back({0, 0, 0, 1});
+  return JsonValue(file.string() + ": rotation", rows).rigid();
+}
+
+void read_calibration(const fs::path& folder, const RecordingUse& use, Recording& recording) {
+  const RecordedFrame& first = recording.frames.front();
+  const auto has = [&](const char* name) { return fs::exists(folder / name); };
+  if (use == RecordingUse::boards) {
+    if (!has("calib_color.yaml") || !has("calib_ir.yaml") || !has("calib_pose.yaml")) {
+      recording.notes.push_back("no calib_color.yaml, calib_ir.yaml and calib_pose.yaml: calibrate from the boards");
+      return;
+    }
+  } else if (!has("calib_ir.yaml")) {
+    return;
+  }
+  recording.sensor.ir = read_camera(folder / "calib_ir.yaml", read_image(first.depth, kDepthImage).size());
+  if (use != RecordingUse::scan) {
+    const cv::Size size = read_image(first.color, kColorOrGreyImage).size();
+    recording.sensor.color = read_camera(folder / "calib_color.yaml", size);
+    recording.sensor.color_from_ir = read_step(folder / "calib_pose.yaml");
+  }
+  if (has("calib_depth.yaml")) {
+    const OpenCvYaml yaml(folder / "calib_depth.yaml");
+    const double shift_mm = yaml.number("depthShift");
+    if (std::abs(shift_mm) > 1000) yaml.fail("depthShift", "found more than a metre; expected millimetres");
+    recording.sensor.depth_offset_m = -1e-3 * shift_mm;
+  } else {
+    recording.notes.push_back("no calib_depth.yaml: depth is taken to have no offset");
+  }
+  recording.calibrated = true;
+}
+
+Recording iai_kinect2(const fs::path& folder, const RecordingUse& use, const IaiKinect2Params& params) {
+  Recording recording;
+  recording.sensor.model = "kinect_v2";
+  recording.frames = frames_for(folder, use, params.separate, recording.notes);
+  read_calibration(folder, use, recording);
+  return recording;
+}
+
+const Importer::Variant variant{"iai_kinect2", iai_kinect2};
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/error.h"
+#include "scenes/import/import.h"
+#include "scenes/import/stamped_files.h"
+#include "scenes/json_file.h"
+
+// Recordings of redwood-data.org and of Open3D's recorders: Choi et al., "A large dataset of object scans",
+// arXiv:1602.02481. depth/ holds 16-bit PNG, millimetres, on colour's grid; colour is in rgb/, image/, color/ or
+// colors/. Files are named by frame, or by frame and microseconds. intrinsic.json as Open3D writes it.
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RedwoodParams {
+  double depth_per_m = 1000, tolerance_ms = 20;
+};
+
+template <class V>
+void fields(V& v, RedwoodParams& p) {
+  v("depth_per_m", p.depth_per_m, 1000.0, 65535.0, "1/m", "what depth images count in");
+  v("tolerance_ms", p.tolerance_ms, 0.0, 1000.0, "ms", "how far apart in time depth and colour of one moment may be");
+}
+
+// Open3D's file: size and the columns of the camera matrix, one after the other.
+Camera read_intrinsics(const fs::path& file) {
+  const JsonValue json = read_json(file);
+  const auto matrix = json.at("intrinsic_matrix").numbers(9);
+  Camera camera;
+  camera.width = json.at("width").whole(1, 16384);
+  camera.height = json.at("height").whole(1, 16384);
+  camera.fx = matrix[0], camera.fy = matrix[4], camera.cx = matrix[6], camera.cy = matrix[7];
+  const bool pinhole = matrix[1] == 0 && matrix[2] == 0 && matrix[3] == 0 && matrix[5] == 0 && matrix[8] == 1;
+  if (!pinhole || !(camera.fx >= 1 && camera.fy >= 1))
+    json.at("intrinsic_matrix").fail("found no camera matrix; expected [fx, 0, 0, 0, fy, 0, cx, cy, 1]");
+  return camera;
+}
+
+fs::path first_existing(const fs::path& folder, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    if (fs::exists(folder / name)) return folder / name;
+  return {};
+}
+
+std::vector<StampedFile> synchronised(const NumberedFiles& depth, const fs::path& color_folder,
+                                      const RedwoodParams& params, const fs::path& depth_folder,
+                                      std::vector<std::string>& notes) {
+  const NumberedFiles color = numbered_files(color_folder);
+  if (!color.files.empty() && color.timed != depth.timed)
+    throw InputError(color_folder.string(), "found names of another kind than in " + depth_folder.string() +
+                                                "; expected times in both or in neither");
+  return with_partners(depth.files, color.files, depth.timed ? 1e-3 * params.tolerance_ms : 0, depth_folder.string(),
+                       notes);
+}
+
+Recording redwood(const fs::path& folder, const RecordingUse& use, const RedwoodParams& params) {
+  if (use != RecordingUse::scan) fail_without_infrared(folder);
+  Recording recording;
+  recording.sensor.model = "kinect_v1";
+  recording.prime_sense = true;
+  recording.depth_per_m = params.depth_per_m;
+  const fs::path depth_folder = folder / "depth";
+  NumberedFiles depth = numbered_files(depth_folder);
+  if (depth.files.empty()) throw InputError(depth_folder.string(), "found no images; expected depth frames");
+  const fs::path color = first_existing(folder, {"rgb", "image", "color", "colors"});
+  if (color.empty())
+    recording.notes.push_back("no folder of colour: synchronisation was not checked");
+  else
+    depth.files = synchronised(depth, color, params, depth_folder, recording.notes);
+  const fs::path intrinsics = first_existing(folder, {"intrinsic.json", "camera_intrinsic.json"});
+  if (!intrinsics.empty()) {
+    recording.sensor.model = "unknown";  // any sensor that a recorder of Open3D knows
+    recording.sensor.ir = read_intrinsics(intrinsics);
+    recording.calibrated = true;
+  }
+  for (auto& each : depth.files) recording.frames.push_back({{}, {}, std::move(each.path)});
+  return recording;
+}
+
+const Importer::Variant variant{"redwood", redwood};
+
+}  // namespace
+}  // namespace dressform

@@ -1,0 +1,111 @@
+#include "scenes/import/stamped_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <tuple>
+
+#include "scenes/error.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_image(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+// Number and, where there is one, time of a file's name.
+struct NumberedName {
+  double number = 0, time_s = 0;
+  bool timed = false;
+};
+NumberedName numbered_name(const fs::path& path) {
+  static const std::regex form("([0-9]{1,15})(-([0-9]{1,15}))?");
+  std::smatch parts;
+  const std::string stem = path.stem().string();
+  if (!std::regex_match(stem, parts, form))
+    throw InputError(path.string(), "found no number for a name; expected e.g. 00012.png or 0000013-000000400400.png");
+  NumberedName name;
+  name.number = std::stod(parts[1]);
+  name.timed = parts[3].matched;
+  if (name.timed) name.time_s = 1e-6 * std::stod(parts[3]);
+  return name;
+}
+
+}  // namespace
+
+NumberedFiles numbered_files(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw InputError(folder.string(), "is missing; expected a folder of images");
+  std::vector<std::pair<NumberedName, fs::path>> named;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && is_image(entry.path()) && entry.path().filename().string()[0] != '.')
+      named.push_back({numbered_name(entry.path()), entry.path()});
+  std::sort(named.begin(), named.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first.number, a.second) < std::tie(b.first.number, b.second);
+  });
+  NumberedFiles result;
+  result.timed = !named.empty() && named.front().first.timed;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const auto& [name, path] = named[i];
+    if (name.timed != result.timed)
+      throw InputError(path.string(), "found names with and without a time; expected one kind in a folder");
+    const double stamp_s = name.timed ? name.time_s : name.number;
+    if (i > 0 && (name.number == named[i - 1].first.number || stamp_s <= result.files.back().stamp_s))
+      throw InputError(path.string(), fmt::format("found a number or time that does not increase after {}; expected "
+                                                  "frames in order",
+                                                  named[i - 1].second.filename().string()));
+    result.files.push_back({stamp_s, path});
+  }
+  return result;
+}
+
+std::vector<std::pair<int, int>> associate(const std::vector<StampedFile>& a, const std::vector<StampedFile>& b,
+                                           double tolerance_s) {
+  std::vector<std::tuple<double, int, int>> close;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    while (from < b.size() && b[from].stamp_s < a[i].stamp_s - tolerance_s) ++from;
+    for (std::size_t k = from; k < b.size() && b[k].stamp_s <= a[i].stamp_s + tolerance_s; ++k)
+      close.emplace_back(std::abs(a[i].stamp_s - b[k].stamp_s), static_cast<int>(i), static_cast<int>(k));
+  }
+  std::sort(close.begin(), close.end());
+  std::vector<bool> used_a(a.size()), used_b(b.size());
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& [apart_s, i, k] : close) {
+    if (used_a[i] || used_b[k]) continue;
+    used_a[i] = used_b[k] = true;
+    pairs.push_back({i, k});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<StampedFile> with_partners(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& color,
+                                       double tolerance_s, const std::string& where, std::vector<std::string>& notes) {
+  const auto pairs = associate(depth, color, tolerance_s);
+  const std::string near = tolerance_s > 0 ? fmt::format("colour frame within {:g} ms", 1000 * tolerance_s)
+                                           : std::string("colour frame of the same number");
+  if (2 * pairs.size() < depth.size())
+    throw InputError(where, fmt::format("found {} of {} depth frames with a {}; expected synchronised streams, half of "
+                                        "them at least",
+                                        pairs.size(), depth.size(), near));
+  if (pairs.size() < depth.size())
+    notes.push_back(
+        fmt::format("{} of {} depth frames left out: no {}", depth.size() - pairs.size(), depth.size(), near));
+  std::vector<StampedFile> kept;
+  for (const auto& pair : pairs) kept.push_back(depth[pair.first]);
+  return kept;
+}
+
+void fail_without_infrared(const fs::path& recording) {
+  throw InputError(recording.string(),
+                   "found no infrared pictures, which this format does not know and a session's "
+                   "shots and boards need; expected --role scan_naked or scan_user");
+}
+
+}  // namespace dressform
