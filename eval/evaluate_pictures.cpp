@@ -102,9 +102,9 @@ std::vector<ScoreRow> textures(const RunOutputs& outputs, const GroundTruth& tru
     const HeldOutScores found_scores = scores.value_or(HeldOutScores{});
     add("ssim@1", "1", found_scores.ssim);
     if (scores && std::isnan(scores->ssim_observed))
-      rows.absent(slot + "/ssim_observed@1", "1");
+      rows.absent(slot + "/ssim_observed@2", "1");
     else
-      add("ssim_observed@1", "1", found_scores.ssim_observed);
+      add("ssim_observed@2", "1", found_scores.ssim_observed);
     add("ssim_raw@1", "1", found_scores.ssim_raw);
     add("psnr_db@1", "dB", found_scores.psnr_db);
     add("de2000_mean@1", "1", found_scores.de2000_mean);

@@ -65,6 +65,8 @@ HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, co
   RenderItem of_marks;
   of_marks.textured = &marks;
   of_marks.shading = Shading::unlit;
+  RenderOptions one_sample = options;  // as masks are drawn: no mixture of seen and unseen along outlines
+  one_sample.samples = 1;
   HeldOutViews views;
   for (const auto& place : kPlaces) {
     const RenderView view = look_at_box(box.min(), box.max(), place.azimuth_deg, place.elevation_deg, kWidth, kHeight);
@@ -74,8 +76,8 @@ HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, co
     views.truth_masks.push_back(renderer.mask(view, {of_truth}));
     cv::Mat hidden(kHeight, kWidth, CV_8U, cv::Scalar(0));
     if (!unobserved.empty()) {
-      cv::extractChannel(renderer.render(view, {of_marks}, options), hidden, 0);
-      hidden = (hidden > 192) & views.truth_masks.back();  // the background is middle grey
+      cv::extractChannel(renderer.render(view, {of_marks}, one_sample), hidden, 0);
+      hidden = (hidden > 192) & views.truth_masks.back();
     }
     views.unobserved_masks.push_back(hidden);
   }
