@@ -69,7 +69,10 @@ SensorSpec read_sensor(TomlSection& section) {
   sensor.calibration = read_calibration(section);
   section("body_tracking", sensor.body_tracking, "");
   section("exposure", sensor.exposure, 0.05, 20.0, "", "");
+  section("gain", sensor.gain, 0.1, 32.0, "", "");
   section.vector3("white_balance", sensor.white_balance, 0.2, 5, "");
+  section("mosaic", sensor.mosaic, "");
+  section("jpeg_quality", sensor.jpeg_quality, 0, 100, "", "");
   if (section.has("world_from_sensor")) {
     section.child("world_from_sensor", [&](TomlSection& step) { sensor.world_from_sensor = read_step(step); });
   } else {

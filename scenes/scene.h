@@ -49,7 +49,10 @@ struct SensorSpec {
   Isometry3d world_from_sensor = Isometry3d::Identity();  // IR camera, true
   bool body_tracking = false;            // the SDK tracks front and back views only
   double exposure = 1.0;                 // linear gain of the colour camera against the scene's nominal exposure
+  double gain = 1.0;                     // amplification of the colour camera: brightens, and the noise with it
   Vector3d white_balance = Vector3d::Ones();  // linear gain per channel (RGB)
+  bool mosaic = true;                    // a Bayer filter before the colour camera's pixels
+  int jpeg_quality = 90;                 // of the colour stream; 0: uncompressed
 };
 
 struct LightSpec {

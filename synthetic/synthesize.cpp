@@ -195,8 +195,11 @@ class Studio {
     Shot result;
     if (optics.color) {
       FilmSpec film;
-      film.gain = exposure_ * static_cast<float>(sensor.exposure);
+      film.gain = exposure_ * static_cast<float>(sensor.exposure * sensor.gain);
+      film.electrons_full_scale /= static_cast<float>(sensor.gain);
       film.white_balance = sensor.white_balance.cast<float>();
+      film.mosaic = sensor.mosaic;
+      film.jpeg_quality = sensor.jpeg_quality;
       result.color = render_color(world, lighting_, indirect, *optics.color, world_from_color(sensor), film, seed);
     }
     const IrView view(world, optics.ir, sensor.calibration.ir, sensor.world_from_sensor,

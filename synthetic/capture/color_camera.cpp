@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/random.h"
 #include "synthetic/capture/shading.h"
 
 namespace dressform {
@@ -115,20 +114,10 @@ BlockSums render_block(const LitScene& world, const Eye& eye, int left, int top,
   return sums;
 }
 
-// Linear light to one 8-bit pixel.
-cv::Vec3b expose(const Vector3f& radiance, const Vector2f& ideal, const FilmSpec& film, Seed seed,
-                 std::uint64_t index) {
+// What the lens lets through away from its axis.
+float lens_factor(const Vector2f& ideal, float vignetting) {
   const float cosine2 = 1.0f / (1.0f + ideal.squaredNorm());
-  const float lens = 1.0f - film.vignetting * (1.0f - cosine2 * cosine2);
-  const auto noise = normal4(seed, stream_of("color"), index);
-  cv::Vec3b bgr;
-  for (int c = 0; c < 3; ++c) {
-    const float electrons = std::max(0.0f, radiance[c]) * film.gain * lens * film.electrons_full_scale;
-    const float sigma = std::sqrt(electrons + film.read_noise_electrons * film.read_noise_electrons);
-    const float measured = (electrons + sigma * static_cast<float>(noise[c])) / film.electrons_full_scale;
-    bgr[2 - c] = cv::saturate_cast<std::uint8_t>(255.0f * srgb_from_linear(measured * film.white_balance[c]));
-  }
-  return bgr;
+  return 1.0f - vignetting * (1.0f - cosine2 * cosine2);
 }
 
 }  // namespace
@@ -140,18 +129,18 @@ cv::Mat render_color(const RayScene& scene, const Lighting& lighting, const Indi
   const int width = rays.width(), height = rays.height();
   // Four samples share a pixel: each stands for half its width.
   const float footprint_per_m = 0.5f * (rays.at(width / 2 + 1, height / 2) - rays.at(width / 2, height / 2)).norm();
-  cv::Mat image(height, width, CV_8UC3);
+  cv::Mat light(height, width, CV_32FC3);
   for_each_block(width, height, [&](int left, int top) {
     const BlockSums sums = render_block(world, eye, left, top, footprint_per_m);
     for (int lane = 0; lane < packet_size; ++lane) {
       const int x = left + lane % block, y = top + lane / block;
       if (x >= width || y >= height) continue;
-      const Vector3f radiance = (sums.direct[lane] + sums.other[lane]) / pixel_samples;
-      image.at<cv::Vec3b>(y, x) =
-          expose(radiance, rays.at(x, y), film, seed, static_cast<std::uint64_t>(y) * width + x);
+      const Vector3f rgb =
+          (sums.direct[lane] + sums.other[lane]) * (lens_factor(rays.at(x, y), film.vignetting) / pixel_samples);
+      light.at<cv::Vec3f>(y, x) = {rgb[0], rgb[1], rgb[2]};
     }
   });
-  return image;
+  return developed(light, film, seed);
 }
 
 cv::Mat render_labels(const RayScene& scene, const RayTable& rays, const Isometry3d& world_from_camera) {
