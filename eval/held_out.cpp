@@ -10,11 +10,37 @@ using namespace metrics;
 
 namespace {
 
-constexpr int kWidth = 400, kHeight = 500;  // about the resolution of the colour cameras on the garment
+constexpr double kDistance_m = 2.10, kFocal_px = 1081.37;  // the set-up's distance; the SDK's focal length
+constexpr int kMargin_px = 16;                             // round the true garment: more than half an SSIM window
 struct Place {
   double azimuth_deg, elevation_deg;
 };
 constexpr Place kPlaces[] = {{45, 10}, {135, 20}, {225, 10}, {315, 20}};
+
+// The view from a place towards the wearer's centre, cut out round the garment.
+RenderView held_out_view(const Place& place, const Vector3d& centre, const Mesh& garment) {
+  const double azimuth = place.azimuth_deg * M_PI / 180, elevation = place.elevation_deg * M_PI / 180;
+  const Vector3d back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                      std::cos(azimuth) * std::cos(elevation));
+  const Vector3d right(std::cos(azimuth), 0, -std::sin(azimuth));
+  RenderView view;
+  view.camera_from_world.linear() << right.transpose(), -back.cross(right).transpose(), -back.transpose();
+  view.camera_from_world.translation() = -view.camera_from_world.linear() * (centre + kDistance_m * back);
+  Eigen::AlignedBox2d box;
+  for (const Vector3d& vertex : garment.vertices) {
+    const Vector3d p = view.camera_from_world * vertex;
+    if (p.z() > kDistance_m / 4) box.extend(Vector2d(kFocal_px * p.head<2>() / p.z()));
+  }
+  if (box.isEmpty()) box.extend(Vector2d::Zero());
+  const Eigen::Vector2i low = box.min().array().floor().cast<int>() - kMargin_px,
+                        size = box.max().array().ceil().cast<int>() + kMargin_px - low.array() + 1;
+  view.camera.width = std::min(size.x(), 4096);
+  view.camera.height = std::min(size.y(), 4096);
+  view.camera.fx = view.camera.fy = kFocal_px;
+  view.camera.cx = -low.x();
+  view.camera.cy = -low.y();
+  return view;
+}
 
 // The mesh in white where the triangles are marked and black elsewhere.
 TexturedMesh marked(const TexturedMesh& mesh, const std::vector<bool>& marks) {
@@ -52,9 +78,7 @@ cv::Mat nearest_unobserved(const cv::Mat& truth_mask, const cv::Mat& unobserved)
 }  // namespace
 
 HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth,
-                            const std::vector<bool>& unobserved) {
-  Eigen::AlignedBox3d box;
-  for (const auto& vertex : truth.mesh.vertices) box.extend(vertex);
+                            const Vector3d& centre, const std::vector<bool>& unobserved) {
   RenderItem of_estimate, of_truth;
   of_estimate.textured = &estimate;
   of_truth.textured = &truth;
@@ -69,12 +93,12 @@ HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, co
   one_sample.samples = 1;
   HeldOutViews views;
   for (const auto& place : kPlaces) {
-    const RenderView view = look_at_box(box.min(), box.max(), place.azimuth_deg, place.elevation_deg, kWidth, kHeight);
+    const RenderView view = held_out_view(place, centre, truth.mesh);
     views.estimates.push_back(renderer.render(view, {of_estimate}, options));
     views.truths.push_back(renderer.render(view, {of_truth}, options));
     views.estimate_masks.push_back(renderer.mask(view, {of_estimate}));
     views.truth_masks.push_back(renderer.mask(view, {of_truth}));
-    cv::Mat hidden(kHeight, kWidth, CV_8U, cv::Scalar(0));
+    cv::Mat hidden(views.truth_masks.back().size(), CV_8U, cv::Scalar(0));
     if (!unobserved.empty()) {
       cv::extractChannel(renderer.render(view, {of_marks}, one_sample), hidden, 0);
       hidden = (hidden > 192) & views.truth_masks.back();

@@ -6,8 +6,9 @@
 namespace dressform {
 
 // How an estimated garment looks from where no sensor stood: at 45, 135, 225 and 315 degrees from the front, a little
-// above. Both garments are drawn unlit, alone, in the world frame, on middle grey, by the same cameras, which frame the
-// true one. One linear gain per channel for the whole garment is taken out first.
+// above, 2.10 m from the wearer, through the Kinect's nominal colour camera, cut out round the true garment: whatever
+// the garment's size, details are judged at the resolution that the sensors have. Both garments are drawn unlit, alone,
+// in the world frame, on middle grey. One linear gain per channel for the whole garment is taken out first.
 struct HeldOutScores {
   double ssim = 0;           // windows centred on either garment; mean over the views
   double ssim_observed = 0;  // the same without what no sensor saw of the true garment
@@ -26,9 +27,10 @@ struct HeldOutViews {
   std::vector<cv::Mat> unobserved_masks;             // uint8; where the truth is drawn and no sensor saw it
 };
 
-// unobserved: of each triangle of the truth, whether no sensor saw it; empty: all of it was seen.
+// centre: of the wearer, world frame. unobserved: of each triangle of the truth, whether no sensor saw it; empty: all
+// of it was seen.
 HeldOutViews held_out_views(Renderer& renderer, const TexturedMesh& estimate, const TexturedMesh& truth,
-                            const std::vector<bool>& unobserved = {});
+                            const Vector3d& centre, const std::vector<bool>& unobserved = {});
 HeldOutScores compare_views(const HeldOutViews& views);
 
 }  // namespace dressform
