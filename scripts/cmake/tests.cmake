@@ -12,7 +12,7 @@ function(dressform_tests folder)
   target_link_libraries(${folder}_test PRIVATE GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${folder}_test PRIVATE DRESSFORM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   # Suites named Road* share one long run: they are one test each, below.
-  gtest_discover_tests(${folder}_test TEST_PREFIX ${folder}. TEST_FILTER "-Road*" DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(${folder}_test TEST_PREFIX ${folder}. TEST_FILTER "-*Road*" DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 900)
 endfunction()
 
@@ -25,6 +25,7 @@ target_compile_definitions(eval_test PRIVATE DRESSFORM_PROGRAM="$<TARGET_FILE:dr
 add_dependencies(eval_test dressform)
 add_test(NAME road COMMAND eval_test --gtest_filter=RoadTest.*)
 add_test(NAME road_own_meshes COMMAND eval_test --gtest_filter=RoadOwnMeshes.*)
+add_test(NAME road_rigs COMMAND eval_test --gtest_filter=*RoadRigs.*)
 add_test(NAME golden COMMAND dressform gate check --golden ${CMAKE_SOURCE_DIR}/golden --work ${CMAKE_BINARY_DIR}/gate)
-set_tests_properties(road road_own_meshes golden PROPERTIES TIMEOUT 1500 RUN_SERIAL ON)
+set_tests_properties(road road_own_meshes road_rigs golden PROPERTIES TIMEOUT 1500 RUN_SERIAL ON)
 add_test(NAME layers COMMAND ${CMAKE_SOURCE_DIR}/scripts/check_layers ${CMAKE_SOURCE_DIR})
