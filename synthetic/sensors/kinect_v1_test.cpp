@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <set>
 
+#include "synthetic/sensors/noise_references.h"
+#include "synthetic/sensors/noise_statistics.h"
 #include "synthetic/sensors/test_scenes.h"
 
 namespace dressform {
@@ -12,62 +14,35 @@ namespace {
 
 using namespace test_scenes;
 
-Camera kinect_v1() { return Camera{640, 480, 580, 580, 319.5, 239.5, {}}; }
+Camera kinect_v1() { return usual_camera("kinect_v1"); }
 
 SensorFrame shoot(const RayScene& scene, const FieldValues& values = {}, Seed seed = 1) {
   return measure(scene, "kinect_v1", values, seed, 0, kinect_v1());
 }
 
-// Every depth that can come out between `from_mm` and `to_mm`: a floor that leads away from the sensor shows them all.
-std::set<int> levels(double from_mm, double to_mm) {
-  const Vector3d u(0, -0.7, 4.5), v(1, 0, 0);
-  RaySurface floor = surface(grid_mesh(Vector3d(-0.5, 0.3, 0.5), v, u, 0.1), 1.0f);
-  const SensorFrame frame = shoot(scene_of(std::move(floor)), {{"least_signal", 0.0}});
-  std::set<int> result;
-  for (int y = 0; y < 480; ++y)
-    for (int x = 0; x < 640; ++x)
-      if (const int z = frame.depth_mm.at<std::uint16_t>(y, x); z >= from_mm && z <= to_mm) result.insert(z);
-  return result;
-}
+SensorSetup setup() { return {"kinect_v1", {}, kinect_v1()}; }
 
 TEST(KinectV1, The259LevelsBetweenOneAndFourMetres) {
-  std::set<int> expected;
-  for (int n = -2000; n < 280; ++n) {
-    const double z = std::floor(1.0 / (1.0 / 1200 - n * 0.1042 / 36000));
-    if (z >= 1000 && z <= 4000) expected.insert(static_cast<int>(z));
-  }
+  const std::set<int> expected = kinect_v1_ladder(1000, 4000);
   EXPECT_EQ(expected.size(), 259u);
-  EXPECT_EQ(levels(1000, 4000), expected);
+  EXPECT_EQ(depth_levels(setup(), 1000, 4000), expected);
 }
 
 TEST(KinectV1, StepsGrowWithTheSquareOfTheDistance) {
-  const std::set<int> ladder = levels(1000, 4000);
+  const std::set<int> ladder = depth_levels(setup(), 1000, 4000);
   for (auto low = ladder.begin(), high = std::next(low); high != ladder.end(); ++low, ++high) {
     const double middle = 0.5 * (*low + *high);
-    EXPECT_NEAR(*high - *low, middle * middle / 345489, 1.01);  // whole millimetres
+    EXPECT_NEAR(*high - *low, kinect_v1_step_mm(middle / 1000), 1.01);  // whole millimetres
   }
 }
 
 TEST(KinectV1, KhoshelhamSigma) {
   for (const double metres : {1.0, 1.5, 2.0, 2.5, 3.0, 3.5}) {
-    const RayScene scene = scene_of(plane(metres, 0, 0.9f));
-    double sum = 0, squares = 0;
-    int count = 0;
-    for (Seed seed = 1; seed <= 6; ++seed)
-      // Distances a part of a step apart, so that the steps' own width counts as it does on average.
-      for (const double part : {0.0, 0.25, 0.5, 0.75}) {
-        const double z = metres + part * 1e-3 * 1e6 * metres * metres / 345489;
-        const SensorFrame frame = shoot(scene_of(plane(z, 0, 0.9f)), {}, seed);
-        for (int y = 40; y < 440; y += 2)
-          for (int x = 40; x < 600; x += 2) {
-            const double error = frame.depth_mm.at<std::uint16_t>(y, x) - 1000 * z;
-            sum += error, squares += error * error;
-            ++count;
-          }
-      }
-    const double expected_mm = 1.425 * metres * metres, mean = sum / count;
-    EXPECT_NEAR(std::sqrt(squares / count - mean * mean), expected_mm, 0.15 * expected_mm) << metres;
-    EXPECT_NEAR(mean, -0.5, 0.25 * expected_mm) << metres;  // the ladder's millimetres are floored
+    const DepthErrors errors = of_plane_between_steps(setup(), metres, 6);
+    const double expected_mm = khoshelham_sigma_mm(metres);
+    EXPECT_NEAR(errors.sigma_mm, expected_mm, 0.15 * expected_mm) << metres;
+    EXPECT_NEAR(errors.mean_mm, -0.5, 0.25 * expected_mm) << metres;  // the ladder's millimetres are floored
+    EXPECT_LE(errors.holes, 0) << metres;
   }
 }
 

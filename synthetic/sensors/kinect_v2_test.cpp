@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "synthetic/sensors/bounce_map.h"
+#include "synthetic/sensors/noise_statistics.h"
 #include "synthetic/sensors/test_scenes.h"
 
 // The figures of sensors.md and of Fankhauser et al. 2015, one test a line.
@@ -13,58 +14,33 @@ namespace {
 
 using namespace test_scenes;
 
-Camera full_size() { return Camera{512, 424, 366, 366, 255.5, 211.5, {0.09, -0.27, 0, 0, 0.1}}; }
+Camera full_size() { return usual_camera("kinect_v2"); }
 
+FieldValues with(FieldValues values, const FieldValues& more) {
+  for (const auto& [name, value] : more) values[name] = value;
+  return values;
+}
 // Noise alone: what moves the mean is off.
-FieldValues noise_only(FieldValues more = {}) {
-  FieldValues values{
-      {"clip", 1.0}, {"multipath", 0.0}, {"interference_chance", 0.0}, {"warm_up_mm", 0.0}, {"ambient", 0.0}};
-  for (const auto& [name, value] : more) values[name] = value;
-  return values;
-}
+FieldValues noise_only(const FieldValues& more = {}) { return with(dressform::noise_only("kinect_v2"), more); }
 // What moves the mean, alone.
-FieldValues noiseless(FieldValues more = {}) {
-  FieldValues values = noise_only({{"noise_scale", 0.0}, {"companding", false}, {"relief", 0.0}});
-  for (const auto& [name, value] : more) values[name] = value;
-  return values;
-}
+FieldValues noiseless(const FieldValues& more = {}) { return with(without_noise("kinect_v2"), more); }
+
+SensorSetup setup(const FieldValues& values = noise_only()) { return {"kinect_v2", values, full_size()}; }
 
 SensorFrame shoot(const RayScene& scene, const FieldValues& values, Seed seed = 1) {
   return measure(scene, "kinect_v2", values, seed, 0, full_size());
 }
 
-struct Statistics {
-  double mean_mm = 0, sigma_mm = 0, holes = 0;
-};
+constexpr float white = kWhiteAlbedo;
 
-// Of the error over columns about the image centre where the incidence stays near the plane's tilt.
-Statistics statistics(const SensorFrame& frame, double distance_m, double tilt_deg, int half_width, int half_height) {
-  const Camera camera = full_size();
-  double sum = 0, squares = 0;
-  int count = 0, holes = 0;
-  for (int y = 212 - half_height; y < 212 + half_height; ++y)
-    for (int x = 256 - half_width; x < 256 + half_width; ++x) {
-      const int measured = frame.depth_mm.at<std::uint16_t>(y, x);
-      holes += measured == 0;
-      if (measured == 0) continue;
-      const double error = measured - 1000 * true_depth(camera, x, y, distance_m, tilt_deg);
-      sum += error, squares += error * error;
-      ++count;
-    }
-  Statistics result;
-  result.holes = static_cast<double>(holes) / (count + holes);
-  result.mean_mm = sum / std::max(1, count);
-  result.sigma_mm = std::sqrt(squares / std::max(1, count) - result.mean_mm * result.mean_mm);
-  return result;
+DepthErrors of_plane(double distance_m, double tilt_deg, float albedo, const FieldValues& values = noise_only()) {
+  return dressform::of_plane(setup(values), distance_m, tilt_deg, albedo);
 }
 
-// The white target of the published measurements.
-constexpr float white = 0.95f;
-
-Statistics of_plane(double distance_m, double tilt_deg, float albedo, const FieldValues& values = noise_only()) {
-  const int half_width = tilt_deg == 0 ? 24 : 3, half_height = tilt_deg == 0 ? 24 : 60;
-  return statistics(shoot(scene_of(plane(distance_m, tilt_deg, albedo)), values), distance_m, tilt_deg, half_width,
-                    half_height);
+// All that the other tests stand on: what is switched off is all there is to switch off.
+TEST(KinectV2, ParametersOfTheMeasurements) {
+  EXPECT_EQ(noise_only().size(), 5u);
+  EXPECT_EQ(noiseless().size(), 8u);
 }
 
 TEST(KinectV2, SigmaAtOneMetre) { EXPECT_NEAR(of_plane(1, 0, white).sigma_mm, 1.30, 0.15 * 1.30); }
@@ -89,16 +65,10 @@ TEST(KinectV2, SigmaWithoutFilterIsThreeTimesAsLarge) {
 }
 
 TEST(KinectV2, NoiseAutocorrelation) {
-  const SensorFrame frame = shoot(scene_of(plane(3, 0, white)), noise_only());
-  double sums[4] = {};
-  for (int y = 190; y < 235; ++y)
-    for (int x = 200; x < 300; ++x)
-      for (int lag = 0; lag < 4; ++lag)
-        sums[lag] +=
-            (frame.depth_mm.at<std::uint16_t>(y, x) - 3000.0) * (frame.depth_mm.at<std::uint16_t>(y, x + lag) - 3000.0);
-  EXPECT_NEAR(sums[1] / sums[0], 0.68, 0.05);
-  EXPECT_NEAR(sums[2] / sums[0], 0.31, 0.05);
-  EXPECT_NEAR(sums[3] / sums[0], 0.0, 0.06);
+  const auto correlation = noise_autocorrelation(setup(), 3);
+  EXPECT_NEAR(correlation[1], 0.68, 0.05);
+  EXPECT_NEAR(correlation[2], 0.31, 0.05);
+  EXPECT_NEAR(correlation[3], 0.0, 0.06);
 }
 
 TEST(KinectV2, HolesByAlbedoFacing) {
@@ -119,12 +89,9 @@ TEST(KinectV2, HolesByAlbedoAtSeventyFiveDegrees) {
 
 TEST(KinectV2, NoiselessDecodingIsExactOverTheWholeRange) {
   for (double distance_m = 0.5; distance_m <= 4.5; distance_m += 0.125) {
-    const SensorFrame frame =
-        shoot(scene_of(plane(distance_m, 0, 0.8f)), noiseless({{"minimum_m", 0.4}, {"maximum_m", 4.6}}));
-    for (int y = 0; y < 424; y += 3)
-      for (int x = 0; x < 512; x += 3)
-        ASSERT_NEAR(frame.depth_mm.at<std::uint16_t>(y, x), 1000 * distance_m, 0.52)
-            << distance_m << " " << x << " " << y;
+    const DepthErrors errors = decoding_errors(setup(noiseless({{"minimum_m", 0.4}, {"maximum_m", 4.6}})), distance_m);
+    EXPECT_LE(errors.worst_mm, 0.52) << distance_m;
+    EXPECT_EQ(errors.holes, 0) << distance_m;
   }
 }
 
@@ -141,54 +108,26 @@ TEST(KinectV2, NoiselessDecodingOfASlantedPlane) {
     }
 }
 
-// Flying pixels of a plate with slanted edges, `gap_m` before a wall, per contour pixel: depths farther from both than
-// six sigma of their noise.
-double flying_pixels(double gap_m) {
-  std::vector<RaySurface> surfaces;
-  surfaces.push_back(plane(2 + gap_m, 0));
-  surfaces.push_back(surface(grid_mesh({-0.4, -0.6, 2}, {1, 0.2, 0}, {-0.2, 1, 0}, 1), 0.6f));
-  const RayScene scene(std::move(surfaces));
-  const double before_wall_mm = gap_m > 1 ? 60 : 25;
-  double flying = 0;
-  for (Seed seed = 1; seed <= 4; ++seed) {
-    const SensorFrame frame = shoot(scene, noise_only(), seed);
-    for (int y = 160; y < 260; ++y)
-      for (int x = 100; x < 412; ++x) {
-        const int depth = frame.depth_mm.at<std::uint16_t>(y, x);
-        flying += depth > 2025 && depth < 2000 + 1000 * gap_m - before_wall_mm;
-      }
-  }
-  return flying / 800;  // 100 rows, two edges, four frames
-}
-
 TEST(KinectV2, FlyingPixelsAtAWideGap) {
-  const double flying = flying_pixels(2.1);
+  const double flying = flying_pixels(setup(), 2.1);
   EXPECT_GE(flying, 0.01);
   EXPECT_LE(flying, 0.24);
 }
 TEST(KinectV2, FlyingPixelsAtANarrowGap) {
   for (const double gap_m : {0.2, 0.25, 0.3}) {
-    const double flying = flying_pixels(gap_m);
+    const double flying = flying_pixels(setup(), gap_m);
     EXPECT_GE(flying, 0.2) << gap_m;
     EXPECT_LE(flying, 1.4) << gap_m;
   }
 }
 
-// Peak to peak of the mean depth error over distance, which repeats every 3.125 m.
-double wiggle_mm(double clip) {
-  double least = 1e9, most = -1e9;
-  for (double distance_m = 0.7; distance_m <= 4.4; distance_m += 0.06) {
-    const Statistics s = of_plane(distance_m, 0, 0.8f, noiseless({{"clip", clip}}));
-    least = std::min(least, s.mean_mm), most = std::max(most, s.mean_mm);
-  }
-  return most - least;
-}
-
+// The mean depth error over distance repeats every 3.125 m.
 TEST(KinectV2, WigglingByClip) {
-  EXPECT_LE(wiggle_mm(1.0), 1.0);  // millimetres are whole
-  EXPECT_NEAR(wiggle_mm(0.9), 2.6, 1.0);
-  EXPECT_NEAR(wiggle_mm(0.8), 7.7, 1.0);
-  EXPECT_NEAR(wiggle_mm(0.7), 11.9, 1.0);
+  const auto wiggle = [](double clip) { return peak_to_peak(wiggle_mm(setup(noiseless({{"clip", clip}})))); };
+  EXPECT_LE(wiggle(1.0), 1.0);  // millimetres are whole
+  EXPECT_NEAR(wiggle(0.9), 2.6, 1.0);
+  EXPECT_NEAR(wiggle(0.8), 7.7, 1.0);
+  EXPECT_NEAR(wiggle(0.7), 11.9, 1.0);
 }
 
 TEST(KinectV2, InterferenceByLeak) {
@@ -293,7 +232,7 @@ TEST(KinectV2, APlaneBouncesNoLightOntoItself) {
 }
 
 TEST(KinectV2, AmbientLightAddsNoiseAndNoBias) {
-  const Statistics dark = of_plane(3, 0, white), bright = of_plane(3, 0, white, noise_only({{"ambient", 1000.0}}));
+  const DepthErrors dark = of_plane(3, 0, white), bright = of_plane(3, 0, white, noise_only({{"ambient", 1000.0}}));
   EXPECT_GT(bright.sigma_mm, 1.5 * dark.sigma_mm);
   EXPECT_NEAR(bright.mean_mm, dark.mean_mm, 1.0);
 }
