@@ -1,5 +1,4 @@
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <functional>
@@ -95,38 +94,21 @@ void list_boards(const fs::path& folder, const Boards& boards, std::vector<Pictu
 
 }  // namespace
 
-SessionFolder::SessionFolder(const fs::path& folder) : target_(fs::absolute(folder).lexically_normal()) {
-  if (!target_.has_filename()) target_ = target_.parent_path();  // "out/" means "out"
-  if (fs::exists(target_)) throw InputError(folder.string(), "is there already; expected a new folder");
-  std::error_code error;
-  fs::create_directories(target_.parent_path(), error);
-  temporary_ = target_.parent_path() / (".session_" + std::to_string(getpid()) + ".part");
-  fs::remove_all(temporary_, error);
-  if (error || !fs::create_directory(temporary_, error))
-    throw InputError(folder.string(), "cannot be written; expected a writable folder above it");
-}
-
-SessionFolder::~SessionFolder() {
-  std::error_code ignored;
-  if (!finished_) fs::remove_all(temporary_, ignored);
-}
-
-void SessionFolder::finish(const CaptureSession& outline) {
-  if (outline.calibration) write_calibration(temporary_ / "calibration.json", *outline.calibration);
-  write_json(temporary_ / "session.json", session_json(outline));
-  fs::rename(temporary_, target_);
-  finished_ = true;
+void finish_session(NewFolder& folder, const CaptureSession& outline) {
+  if (outline.calibration) write_calibration(folder.temporary() / "calibration.json", *outline.calibration);
+  write_json(folder.temporary() / "session.json", session_json(outline));
+  folder.keep();
 }
 
 void write_capture_session(const fs::path& folder, const CaptureSession& session) {
-  SessionFolder writer(folder);
+  NewFolder writer(folder);
   std::vector<PictureFile> files;
   list_shots(writer.temporary() / "naked", session.naked, files);
   list_shots(writer.temporary() / "dressed", session.dressed, files);
   for (const auto& [name, scan] : session.scans) list_scan(writer.temporary() / name, scan, files);
   if (session.boards) list_boards(writer.temporary() / "boards", *session.boards, files);
   tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t i) { write_png(files[i].path, *files[i].image); });
-  writer.finish(session);
+  finish_session(writer, session);
 }
 
 std::string session_content_hash(const fs::path& folder) {

@@ -20,7 +20,7 @@ table { border-collapse: collapse; font-size: 13.5px; margin: 8px 0 14px; font-v
 th { text-align: left; font-weight: 600; border-bottom: 2px solid #bbb; padding: 4px 14px 4px 0; }
 td { border-bottom: 1px solid #eee; padding: 3px 14px 3px 0; white-space: nowrap; }
 td.good { color: #1b5e20; } td.bad { color: #b00020; font-weight: 600; } td.quiet { color: #888; }
-figure { margin: 10px 0 18px; } figure img { max-width: 100%; height: auto; border: 1px solid #eee; }
+figure { margin: 10px 0 18px; } figure img, figure svg { max-width: 100%; height: auto; border: 1px solid #eee; }
 figcaption { font-size: 13px; color: #555; } figcaption b { color: #222; }
 pre { font-size: 12px; background: #f7f7f7; padding: 10px; overflow-x: auto; }
 summary { cursor: pointer; color: #25619b; }
@@ -94,6 +94,11 @@ void HtmlPage::figure(const Figure& figure) {
   body_ += fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption><b>{0}.</b> {2}</figcaption></figure>\n",
       html_escaped(figure.title), base64(bytes), html_escaped(figure.caption));
+}
+
+void HtmlPage::drawing(const std::string& title, const std::string& caption, const std::string& svg) {
+  body_ += fmt::format("<figure>{}<figcaption><b>{}.</b> {}</figcaption></figure>\n", svg, html_escaped(title),
+                       html_escaped(caption));
 }
 
 void HtmlPage::preformatted(const std::string& summary, const std::string& text) {

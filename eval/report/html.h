@@ -21,6 +21,8 @@ class HtmlPage {
   void verdict(const std::string& text, bool good);
   void table(const std::vector<std::string>& columns, const std::vector<std::vector<Cell>>& rows);
   void figure(const Figure& figure);
+  // An SVG drawing, taken over as it is.
+  void drawing(const std::string& title, const std::string& caption, const std::string& svg);
   void preformatted(const std::string& summary, const std::string& text);  // folded away
 
   std::string text() const;

@@ -155,10 +155,10 @@ ImportReport import_recording(const fs::path& folder, const ImportRequest& asked
                       calibration.has_value(),
                       std::move(recording.notes)};
   const CaptureSession outline = merged_session(request, calibration, static_cast<int>(frames.size()), report.notes);
-  SessionFolder writer(session);
+  NewFolder writer(session);
   if (!request.with.empty()) copy_images(request.with, writer.temporary());
   write_frames(frames, request, recording.depth_per_m, sizes, writer.temporary());
-  writer.finish(outline);
+  finish_session(writer, outline);
   return report;
 }
 

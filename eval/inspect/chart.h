@@ -1,0 +1,61 @@
+#pragma once
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+namespace dressform {
+
+// A chart as it is meant; drawn as SVG and as a picture. Text may hold the letters σ, θ, ±, °, ² and ≤.
+struct Axis {
+  std::string label;  // with its unit
+  double minimum = 0, maximum = 1;
+  bool logarithmic = false;  // minimum > 0
+};
+
+struct Curve {
+  enum Style { line, dashed, dots, dotted_line };
+  std::string name;  // in the legend
+  Style style = line;
+  int color = 0;                        // of the chart's colours; 0 is black, for references
+  std::vector<Eigen::Vector2d> points;  // parts outside the axes are cut off
+};
+
+// What lies between two curves: a tolerance.
+struct Band {
+  std::string name;
+  int color = 0;
+  struct Edge {
+    double x, low, high;
+  };
+  std::vector<Edge> edges;
+};
+
+// Values with a tolerance at single places.
+struct Whiskers {
+  std::string name;
+  int color = 0;
+  struct Mark {
+    double x, low, value, high;
+  };
+  std::vector<Mark> marks;
+};
+
+struct Chart {
+  std::string name;     // file stem
+  std::string title;    // a few words
+  std::string caption;  // what is to be seen
+  Axis x, y;
+  std::vector<Band> bands;
+  std::vector<Curve> curves;
+  std::vector<Whiskers> whiskers;
+};
+
+std::string chart_svg(const Chart& chart);
+// 8-bit BGR, twice as many pixels as the SVG has units.
+cv::Mat chart_picture(const Chart& chart);
+
+// An axis from 0 (or below, where there are such values) that holds all of the chart's curves, bands and marks.
+Axis axis_around(const Chart& chart, const std::string& label);
+
+}  // namespace dressform

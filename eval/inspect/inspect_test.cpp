@@ -1,0 +1,338 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <opencv2/core.hpp>
+
+#include "eval/inspect/depth_edges.h"
+#include "eval/inspect/depth_noise.h"
+#include "eval/inspect/inspect_session.h"
+#include "eval/inspect/sensor_charts.h"
+#include "scenes/error.h"
+#include "scenes/file_bytes.h"
+#include "scenes/hash.h"
+#include "synthetic/sensors/known_scenes.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+Camera camera() { return Camera{256, 212, 183, 183, 127.5, 105.5, {0.09, -0.27, 0, 0, 0.1}}; }
+
+// Depth of a tilted plane with so much noise of its own in every pixel.
+cv::Mat noisy_plane(double distance_m, double tilt_deg, double sigma_mm, int stream) {
+  cv::Mat noise(camera().height, camera().width, CV_64F), depth(noise.size(), CV_16UC1);
+  cv::RNG(static_cast<std::uint64_t>(stream)).fill(noise, cv::RNG::NORMAL, 0, sigma_mm);
+  for (int y = 0; y < depth.rows; ++y)
+    for (int x = 0; x < depth.cols; ++x) {
+      const double mm = 1000 * true_plane_depth(camera(), x, y, distance_m, tilt_deg) + noise.at<double>(y, x);
+      depth.at<std::uint16_t>(y, x) = mm > 300 && mm < 8000 ? static_cast<std::uint16_t>(std::lround(mm)) : 0;
+    }
+  return depth;
+}
+
+TEST(SmoothWindows, DeviationDistanceAndAngleAreFound) {
+  for (const double tilt_deg : {0.0, 40.0}) {
+    const auto windows = smooth_windows(noisy_plane(2, tilt_deg, 6, 3), camera());
+    ASSERT_GE(windows.size(), 150u);  // of 238
+    EXPECT_NEAR(median_sigma_mm(windows), 6, 0.15);
+    for (const auto& window : windows) {
+      const Vector2d at = camera().normalized({window.pixels.x + 7.0, window.pixels.y + 7.0});
+      const double tilt = tilt_deg * M_PI / 180;
+      const Vector3d normal(-std::sin(tilt), 0, std::cos(tilt)), ray = Vector3d(at.x(), at.y(), 1).normalized();
+      EXPECT_NEAR(window.theta_rad, std::acos(std::abs(normal.dot(ray))), 0.06);
+      EXPECT_NEAR(window.z_m, true_plane_depth(camera(), window.pixels.x + 7, window.pixels.y + 7, 2, tilt_deg), 0.01);
+      EXPECT_NEAR(window.products_mm2[1] / window.products_mm2[0], 0, 0.3);  // neighbours share nothing
+    }
+  }
+}
+
+TEST(SmoothWindows, NoneWhereSurfacesBendStepOrHaveHoles) {
+  cv::Mat depth = noisy_plane(2, 0, 1, 5);
+  for (int y = 0; y < depth.rows; ++y)
+    for (int x = 0; x < depth.cols; ++x) {
+      auto& mm = depth.at<std::uint16_t>(y, x);
+      if (y < 60) mm = static_cast<std::uint16_t>(mm + 0.4 * std::pow(x % 15 - 7, 2));  // bends
+      if (y >= 60 && y < 120 && x % 15 > 9) mm += 40;                                   // steps
+      if (y >= 120 && y < 180 && x % 15 == 3 && y % 15 == 3) mm = 0;                    // holes
+    }
+  for (const auto& window : smooth_windows(depth, camera())) EXPECT_GE(window.pixels.y, 180);
+  EXPECT_TRUE(smooth_windows(cv::Mat::zeros(212, 256, CV_16UC1), camera()).empty());
+  EXPECT_TRUE(smooth_windows(cv::Mat::zeros(9, 9, CV_16UC1), Camera{9, 9, 8, 8, 4, 4, {}}).empty());
+  EXPECT_TRUE(std::isnan(median_sigma_mm({})));
+}
+
+TEST(WindowsOverTime, WhatStandsStillDoesNotCount) {
+  const cv::Mat rough = noisy_plane(2, 20, 3, 1), flat = noisy_plane(2, 20, 0, 0);
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 8; ++i) {
+    cv::Mat noise, rough_values, frame;
+    cv::subtract(noisy_plane(2, 20, 5, 10 + i), flat, noise, cv::noArray(), CV_32S);
+    rough.convertTo(rough_values, CV_32S);
+    cv::Mat(rough_values + noise).convertTo(frame, CV_16U);
+    frames.push_back(frame);
+  }
+  const auto windows = windows_over_time(frames, camera());
+  ASSERT_GE(windows.size(), 100u);
+  EXPECT_NEAR(median_sigma_mm(windows), 5, 0.1);
+  EXPECT_TRUE(windows_over_time({rough}, camera()).empty());
+}
+
+TEST(WindowsOverTime, TwoFramesAndWhatMovedBetweenThem) {
+  cv::Mat first = noisy_plane(2, 0, 4, 21), second = noisy_plane(2, 0, 4, 22);
+  second(cv::Rect(0, 0, 256, 100)) += 30;
+  const auto windows = windows_over_time({first, second}, camera());
+  ASSERT_GE(windows.size(), 60u);
+  EXPECT_NEAR(median_sigma_mm(windows), 4, 0.15);
+  for (const auto& window : windows) EXPECT_GE(window.pixels.y, 90);
+}
+
+TEST(StillRuns, WhereTheSensorStood) {
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 4; ++i) frames.push_back(noisy_plane(2 + 0.1 * i, 10, 2, i));
+  for (int i = 0; i < 6; ++i) frames.push_back(noisy_plane(3, 10, 3, 10 + i));
+  for (int i = 0; i < 3; ++i) frames.push_back(noisy_plane(1.5 + 0.1 * i, 30, 2, 20 + i));
+  const auto runs = still_runs(frames);
+  ASSERT_EQ(runs.size(), 1u);
+  EXPECT_EQ(runs[0].first, 4);
+  EXPECT_EQ(runs[0].frames, 6);
+  EXPECT_TRUE(still_runs({}).empty());
+  EXPECT_TRUE(still_runs(std::vector<cv::Mat>(9, cv::Mat::zeros(50, 50, CV_16UC1))).empty());
+}
+
+TEST(DepthEdges, FlyingAndLostPixelsOfACrossing) {
+  cv::Mat depth(10, 40, CV_16UC1, cv::Scalar(2000));
+  depth.colRange(20, 40) = 3000;
+  depth.at<std::uint16_t>(1, 20) = 2500;                                         // flying
+  depth.at<std::uint16_t>(2, 19) = 2400, depth.at<std::uint16_t>(2, 20) = 2700;  // two
+  depth.at<std::uint16_t>(3, 20) = 0;                                            // lost
+  depth.row(4).colRange(14, 30) = 0;                                             // too wide to be one edge
+  depth.row(5) = 2000;                                                           // no edge
+  std::vector<DepthEdges> edges;
+  count_edges(depth, edges);
+  ASSERT_EQ(edges.size(), 5u);
+  EXPECT_EQ(edges[3].from_m, 0.8);
+  EXPECT_EQ(edges[3].crossings, 8);
+  EXPECT_EQ(edges[3].flying, 3);
+  EXPECT_EQ(edges[3].lost, 1);
+  for (const int other : {0, 1, 2, 4}) EXPECT_EQ(edges[other].crossings, 0);
+}
+
+Chart some_chart() {
+  Chart chart{"some", "A <title>", "", {"x [m]", 0, 10}, {"y [mm]", 1, 100, true}, {}, {}, {}};
+  chart.bands.push_back({"±15 %", 3, {{0, 5, 8}, {10, 20, 1000}}});
+  chart.curves.push_back({"a & b", Curve::line, 1, {{-5, 10}, {5, 10}, {20, 20}}});
+  chart.curves.push_back({"dots", Curve::dots, 2, {{5, 1e-9}, {5, 50}}});
+  chart.whiskers.push_back({"expected", 0, {{5, 2, 3, 4}}});
+  return chart;
+}
+
+TEST(Charts, SvgHoldsWhatWasMeantAndNothingLeavesTheBox) {
+  const std::string svg = chart_svg(some_chart());
+  EXPECT_THAT(svg, HasSubstr("A &lt;title&gt;"));
+  EXPECT_THAT(svg, HasSubstr("a &amp; b"));
+  EXPECT_THAT(svg, HasSubstr("y [mm]"));
+  EXPECT_THAT(svg, HasSubstr(">50</text>"));  // a tick
+  EXPECT_THAT(svg, HasSubstr("±15 %"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("-1")));  // no coordinate is negative
+  EXPECT_THAT(svg, testing::EndsWith("</svg>"));
+}
+
+TEST(Charts, PictureIsTwiceAsLargeAndColoured) {
+  const cv::Mat picture = chart_picture(some_chart());
+  EXPECT_EQ(picture.size(), cv::Size(1440, 800));
+  EXPECT_EQ(picture.type(), CV_8UC3);
+  // The line at y = 10 lies in the middle of the logarithmic axis, in blue.
+  const cv::Vec3b line = picture.at<cv::Vec3b>(2 * (36 + 344) / 2, 2 * 100);
+  EXPECT_GT(line[0], line[2] + 80);
+}
+
+TEST(Charts, AxisHoldsAllValues) {
+  Chart chart = some_chart();
+  const Axis axis = axis_around(chart, "y");
+  EXPECT_LE(axis.minimum, 0);
+  EXPECT_GE(axis.maximum, 1000);
+  EXPECT_EQ(axis_around(Chart{}, "y").minimum, 0);
+  EXPECT_GT(axis_around(Chart{}, "y").maximum, 0);
+}
+
+// Everything that the figures of the sensor models are asked for, judged, in one look.
+TEST(InspectSensor, EveryFigureOfKinectV2IsWithinItsTolerance) {
+  const Inspection inspection = inspect_sensor("kinect_v2", {}, [](const std::string&, int, int) {});
+  std::string names;
+  for (const auto& section : inspection.sections) {
+    ASSERT_EQ(section.charts.size(), 1u) << section.title;
+    for (const auto& finding : section.findings) {
+      names += finding.what + "\n";
+      EXPECT_TRUE(finding.judged()) << finding.what;
+      EXPECT_TRUE(finding.good()) << finding.what << " " << finding.measured;
+    }
+  }
+  for (const char* what : {"sigma at 1 m", "sigma at 4 m", "sigma at 2 m and 80 degrees", "decoding error",
+                           "holes at 75", "flying pixels at a gap of 2.1 m", "autocorrelation at lag 3", "wiggling"})
+    EXPECT_THAT(names, HasSubstr(what));
+  EXPECT_GE(count_of(inspection).judged, 30);
+}
+
+TEST(InspectSensor, TheLadderOfKinectV1) {
+  const InspectionSection section = levels({"kinect_v1", {}, usual_camera("kinect_v1")});
+  ASSERT_EQ(section.findings.size(), 2u);
+  for (const auto& finding : section.findings) {
+    EXPECT_EQ(finding.measured, 259);
+    EXPECT_TRUE(finding.good());
+  }
+}
+
+TEST(InspectSensor, AFigureOutsideItsToleranceIsSaidToBe) {
+  const SensorSetup loud{"kinect_v2", {{"noise_scale", 3.0}}, usual_camera("kinect_v2")};
+  bool outside = false;
+  for (const auto& finding : sigma_by_distance(loud).findings) outside = outside || !finding.good();
+  EXPECT_TRUE(outside);
+  EXPECT_THROW(inspect_sensor("sonar", {}, {}), InputError);
+  EXPECT_THROW(inspect_sensor("kinect_v2", {{"loudness", 1.0}}, {}), InputError);
+}
+
+// ---- sessions
+
+CaptureSession some_session() {
+  CaptureSession session;
+  session.name = "sample <1>";
+  session.sensors = {"k1", "k2"};
+  session.calibration.emplace();
+  session.prior.emplace();
+  SensorCalibration sensor;
+  sensor.model = "kinect_v2";
+  sensor.ir = camera();
+  sensor.color = Camera{192, 108, 100, 100, 95.5, 53.5, {}};
+  for (const auto& name : session.sensors) {
+    session.calibration->sensors[name] = sensor;
+    session.prior->world_from_sensor[name] =
+        Eigen::Translation3d(name == "k1" ? 0 : 1, 1.2, 2) * Eigen::AngleAxisd(M_PI, Vector3d::UnitX());
+    for (auto* shots : {&session.naked, &session.dressed})
+      (*shots)[name] = {cv::Mat(108, 192, CV_8UC3, cv::Scalar(60, 120, 180)),
+                        noisy_plane(2, 15, 3, shots == &session.naked ? 1 : 2),
+                        cv::Mat(212, 256, CV_16UC1, cv::Scalar(900)),
+                        cv::Mat(),
+                        {}};
+  }
+  session.dressed["k1"].body_index = cv::Mat(212, 256, CV_8UC1, cv::Scalar(255));
+  sensor.color.reset();
+  session.calibration->sensors["handheld"] = sensor;
+  session.scans["scan_user"].sensor = "handheld";
+  for (int i = 0; i < 7; ++i) session.scans["scan_user"].depth_mm.push_back(noisy_plane(2.2, 5, 2, 30 + i));
+  return session;
+}
+
+class InspectFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::path(testing::TempDir()) /
+            ("inspect_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+  static Inspection inspect(const CaptureSession& session) {
+    return inspect_session(session, [](const std::string&, int, int) {});
+  }
+  std::map<std::string, std::string> hashes(const fs::path& folder) const {
+    std::map<std::string, std::string> result;
+    for (const auto& entry : fs::directory_iterator(folder))
+      result[entry.path().filename().string()] = hash_file(entry.path());
+    return result;
+  }
+  int run(const std::string& arguments) const {
+    const std::string command = std::string(DRESSFORM_PROGRAM) + " " + arguments + " > " + (root_ / "out").string() +
+                                " 2> " + (root_ / "err").string();
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  fs::path root_;
+};
+
+TEST_F(InspectFolder, EveryStreamIsThereAndTheSameForOneAndTwoThreads) {
+  const CaptureSession session = some_session();
+  for (int threads = 1; threads <= 2; ++threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    write_inspection(inspect(session), root_ / std::to_string(threads));
+  }
+  const auto files = hashes(root_ / "1");
+  EXPECT_EQ(files, hashes(root_ / "2"));
+  for (const char* name : {"inspect.html", "statistics.json", "naked_color.png", "naked_depth.png", "dressed_ir.png",
+                           "dressed_body_index.png", "scan_user.png", "points_by_sensor.png", "points_as_seen.png",
+                           "noise_distance_kinect_v2.png", "noise_distance_kinect_v2.svg", "noise_angle_kinect_v2.png"})
+    EXPECT_EQ(files.count(name), 1u) << name;
+  const std::string html = read_file_bytes(root_ / "1/inspect.html");
+  EXPECT_THAT(html, HasSubstr("Session sample &lt;1&gt;"));
+  EXPECT_THAT(html, Not(HasSubstr("src=\"http")));
+}
+
+TEST_F(InspectFolder, NoiseIsThatOfTheFrames) {
+  std::map<std::string, Finding> found;
+  for (const auto& section : inspect(some_session()).sections)
+    for (const auto& finding : section.findings) found.emplace(finding.what, finding);
+  ASSERT_TRUE(found.count("sigma from pixel to pixel, 2.0 to 2.5 m"));
+  ASSERT_TRUE(found.count("sigma from frame to frame, 2.0 to 2.5 m"));
+  EXPECT_NEAR(found.at("sigma from pixel to pixel, 2.0 to 2.5 m").measured, 2.6, 0.6);  // of 2 and 3 mm
+  EXPECT_NEAR(found.at("sigma from frame to frame, 2.0 to 2.5 m").measured, 2.6, 0.6);
+  EXPECT_NEAR(found.at("autocorrelation at lag 1").measured, 0, 0.05);
+}
+
+TEST_F(InspectFolder, BoardsAloneAndEmptyDepth) {
+  CaptureSession session;
+  session.name = "boards";
+  session.sensors = {"k1"};
+  session.boards.emplace();
+  session.boards->inner_corners_x = 5, session.boards->inner_corners_y = 7, session.boards->square_m = 0.03;
+  for (int i = 0; i < 9; ++i)
+    session.boards->shots["k1"].push_back({cv::Mat(108, 192, CV_8UC3, cv::Scalar::all(9)),
+                                           cv::Mat(212, 256, CV_16UC1, cv::Scalar(1)),
+                                           cv::Mat::zeros(212, 256, CV_16UC1)});
+  write_inspection(inspect(session), root_ / "a");
+  EXPECT_TRUE(fs::exists(root_ / "a/boards_k1_depth.png"));
+  session.boards->shots["k1"][0].depth_mm.at<std::uint16_t>(6, 6) = 1000;  // one lone point
+  write_inspection(inspect(session), root_ / "b");
+  EXPECT_TRUE(fs::exists(root_ / "b/points_k1.png"));
+  EXPECT_THROW(write_inspection(Inspection{}, root_ / "b"), InputError);
+}
+
+TEST_F(InspectFolder, ASessionOfAScanAlone) {
+  CaptureSession session = some_session();
+  session.naked.clear(), session.dressed.clear(), session.prior.reset();
+  session.sensors = {"handheld"};
+  const Inspection inspection = inspect(session);
+  std::string text;
+  for (const auto& section : inspection.sections)
+    for (const auto& line : section.text) text += line;
+  EXPECT_THAT(text, HasSubstr("7 frames of views that were taken more than once"));
+}
+
+TEST_F(InspectFolder, ErrorsOfTheCommandsAreOneLineAndCodeTwo) {
+  const std::string out = (root_ / "x").string();
+  for (const std::string& arguments : std::vector<std::string>{
+           "inspect", "inspect " + root_.string() + " -o " + out,
+           "inspect --sensor kinect_v2 --set sensor.loudness=1 -o " + out,
+           "inspect --sensor ideal -o " + root_.string(), "import tum " + root_.string() + " -o " + out,
+           "import redwood " + root_.string() + " -o " + out, "import iai_kinect2 " + root_.string() + " -o " + out,
+           "import tum " + root_.string() + " --camera 1,2,3 -o " + out,
+           "import iai_kinect2 " + root_.string() + " --board 5x7 -o " + out,
+           "import iai_kinect2 " + root_.string() + " --place 1,2 -o " + out}) {
+    EXPECT_EQ(run(arguments), 2) << arguments;
+    const std::string error = read_file_bytes(root_ / "err");
+    EXPECT_THAT(error, testing::StartsWith("error: ")) << arguments;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    EXPECT_FALSE(fs::exists(out)) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace dressform
