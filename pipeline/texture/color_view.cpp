@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/ximgproc/edge_filter.hpp>
 
 #include "pipeline/texture/noise.h"
 #include "pipeline/texture/raster.h"
@@ -13,6 +14,7 @@ namespace dressform {
 namespace {
 
 constexpr float kFar = 1e6f;
+constexpr double kChromaRange = 6;  // of luma, over its noise, within which chroma is shared
 
 // Every triangle's z in the camera, nearest first, over the crop.
 cv::Mat depth_of(const ColorView& view, const cv::Rect& crop, const std::vector<const Mesh*>& scenery) {
@@ -92,6 +94,32 @@ cv::Mat denoised(const cv::Mat& color, double range_levels) {
   return smooth;
 }
 
+// Chroma smoothed where the luma is alike and the view is trusted: streams carry it at half the resolution, and one
+// filter a pixel gives fine patterns colours that they do not have. The luma stays.
+cv::Mat with_calm_chroma(const cv::Mat& color, const cv::Mat& trust, double reach_px, double range_levels) {
+  if (!(reach_px > 0)) return color;
+  const cv::Mat known = trust > 0;
+  cv::Mat split, smooth, result;
+  cv::cvtColor(color, split, cv::COLOR_BGR2YCrCb);
+  std::vector<cv::Mat> parts;  // luma, and chroma with the weight of the trusted pixels
+  cv::split(split, parts);
+  const cv::Mat luma = parts[0].clone();
+  known.convertTo(parts[0], CV_32F, 1 / 255.0);
+  for (int c = 1; c < 3; ++c) cv::multiply(parts[c], parts[0], parts[c]);
+  cv::Mat weighted;
+  cv::merge(parts, weighted);
+  cv::ximgproc::jointBilateralFilter(luma, weighted, smooth, 2 * static_cast<int>(std::ceil(2 * reach_px)) + 1,
+                                     range_levels, reach_px);
+  cv::split(smooth, parts);
+  for (int c = 1; c < 3; ++c) cv::divide(parts[c], parts[0], parts[c]);
+  parts[0] = luma;
+  cv::merge(parts, smooth);
+  cv::cvtColor(smooth, smooth, cv::COLOR_YCrCb2BGR);
+  color.copyTo(result);
+  smooth.copyTo(result, known);
+  return result;
+}
+
 double garment_distance(const ColorView& view, const Mesh& garment) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& v : garment.vertices) box.extend(v);
@@ -110,7 +138,9 @@ void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment
   view.filled_trust = static_cast<float>(params.filled_trust);
   view.trust = trust_of(filled.mask(crop), std::max(1.0, params.erode_m * pixels_per_m),
                         params.feather_m * pixels_per_m, view.filled_trust);
-  view.color = denoised(view.color, params.denoise * noise_levels(filled.color, brightness(view.color, view.trust)));
+  const double noise = noise_levels(filled.color, brightness(view.color, view.trust));
+  view.color = denoised(view.color, params.denoise * noise);
+  view.color = with_calm_chroma(view.color, view.trust, params.chroma_px, kChromaRange * std::max(1.0, noise));
   cv::erode(depth_of(view, crop, scenery), view.occluder_m, disc(std::max(1.0, params.occluder_m * pixels_per_m)));
   distrust_hidden(view, depth_of(view, crop, {&garment}), params.occluder_gap_m);
   view.low = blurred_within(view.color, view.trust, std::max(1.0, params.band_m * pixels_per_m));

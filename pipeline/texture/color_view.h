@@ -15,7 +15,8 @@ struct ViewParams {
   double occluder_gap_m = 0.03;  // how much nearer an occluder must be
   double band_m = 0.018;         // standard deviation of the blur that divides the bands, on the garment
   double filled_trust = 0;       // in colours that fill made up, against 1 in those that were seen
-  double denoise = 4;            // range of the bilateral filter over the noise found in the image; 0: none
+  double denoise = 5;            // range of the bilateral filter over the noise found in the image; 0: none
+  double chroma_px = 2;          // over which chroma is averaged where the luma is alike; 0: none
 };
 
 // One garment in the raw colour image of one registered sensor, cropped to the garment.

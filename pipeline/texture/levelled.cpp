@@ -26,6 +26,7 @@ void fields(V& v, LevelledParams& p) {
     "trust in colours that fill made up; 0: other views or the surface around");
   v("denoise", p.view.denoise, 0.0, 50.0, "",
     "range of the bilateral filter over the noise found in the image; 0: none");
+  v("chroma_px", p.view.chroma_px, 0.0, 8.0, "px", "over which chroma is averaged where the luma is alike; 0: none");
   v("gain_least_facing", p.gain.least_facing, 0.05, 0.95, "",
     "least cosine of the viewing angle where views are compared");
   v("gain_least_vertices", p.gain.least_vertices, 1, 100000, "", "vertices two views must share to be compared");

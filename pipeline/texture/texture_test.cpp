@@ -118,6 +118,17 @@ TEST_P(EveryVariant, NoTriangleIsMirroredOrOutside) {
 
 TEST(TextureLevelled, IsSharp) { EXPECT_GT(psnr(run(tube_scene(checks, 0.5)).garments.at("top"), checks), 21); }
 
+// Fringes of colour over even luma, as demosaicing leaves them in fine cloth.
+TEST(TextureLevelled, ColourFringesGoAndTheColourBesideTheGarmentStaysOut) {
+  const auto fringes = [](double turn, double) -> cv::Vec3f {
+    const float swing = static_cast<int>(std::floor(turn * 0.2 / 0.004)) % 2 ? 30.f : -30.f;
+    return {120 + swing, 120 - 0.114f / 0.587f * swing, 120};
+  };
+  const auto even = [](double, double) -> cv::Vec3f { return {120, 120, 120}; };
+  const TexturedMesh top = run(tube_scene(fringes, 0.5)).garments.at("top");
+  EXPECT_GT(psnr(top, even), psnr(top, fringes) + 2);
+}
+
 TEST(TextureLevelled, WrittenTextStaysReadable) {
   cv::Mat page(200, 600, CV_8UC3, cv::Scalar::all(230));
   cv::putText(page, "FRONT 27", {20, 140}, cv::FONT_HERSHEY_SIMPLEX, 3.4, cv::Scalar(20, 20, 120), 14, cv::LINE_AA);

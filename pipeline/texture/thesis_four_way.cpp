@@ -6,6 +6,7 @@ namespace {
 ViewParams as_photographed() {
   ViewParams view;
   view.denoise = 0;
+  view.chroma_px = 0;
   view.filled_trust = 1;
   return view;
 }
