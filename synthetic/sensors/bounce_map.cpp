@@ -8,8 +8,9 @@
 namespace dressform {
 namespace {
 
-constexpr int cell = 8;    // pixels between the points that gather
-constexpr int patch = 32;  // pixels along the edge of a patch that sends on
+constexpr int cell = 8;   // pixels between the points that gather
+constexpr int patch = 8;  // pixels along the edge of a patch that sends on: 5 cm at 2 m, coarser ones lose what is near
+constexpr float one_surface = 0.05f;  // largest step in depth within a cell of one surface, in parts of the depth
 
 // Hits at a grid of pixels, row by row.
 struct GridHits {
@@ -79,6 +80,7 @@ BounceMap::BounceMap(const IrView& view, double falloff, double strength) : widt
                                       0.5f * (patch - 1), patch);
   const tof::LitPatches patches = patches_of(view, sources, falloff, strength);
   const tof::SurfacePoints points = points_of(trace_grid(view, columns_, rows_, 0, cell));
+  depth_m_ = points.z;
   grid_.resize(static_cast<std::size_t>(rows_) * tof::bounce_terms * columns_);
   tbb::parallel_for(0, rows_, [&](int row) {
     float* terms[tof::bounce_terms];
@@ -88,23 +90,52 @@ BounceMap::BounceMap(const IrView& view, double falloff, double strength) : widt
   });
 }
 
-void BounceMap::row(int y, float* terms) const {
+void BounceMap::row(int y, const float* depth_m, float* terms) const {
   if (grid_.empty()) {
     std::fill(terms, terms + static_cast<std::ptrdiff_t>(tof::bounce_terms) * width_, 0.0f);
     return;
   }
-  const std::ptrdiff_t above = static_cast<std::ptrdiff_t>(y / cell) * tof::bounce_terms * columns_;
   const float down = static_cast<float>(y % cell) / cell;
-  for (int t = 0; t < tof::bounce_terms; ++t) {
-    const float* upper = &grid_[above + static_cast<std::ptrdiff_t>(t) * columns_];
-    const float* lower = upper + static_cast<std::ptrdiff_t>(tof::bounce_terms) * columns_;
-    float* out = terms + static_cast<std::ptrdiff_t>(t) * width_;
-    for (int column = 0; column + 1 < columns_; ++column) {
-      const float left = (1 - down) * upper[column] + down * lower[column];
-      const float right = (1 - down) * upper[column + 1] + down * lower[column + 1];
-      const int end = std::min(cell, width_ - column * cell);
-      for (int i = 0; i < end; ++i) out[column * cell + i] = left + (right - left) * (static_cast<float>(i) / cell);
+  for (int column = 0; column + 1 < columns_; ++column) {
+    const int first = column * cell, end = std::min(cell, width_ - first);
+    const int corner = (y / cell) * columns_ + column;
+    const float depths[4] = {depth_m_[corner], depth_m_[corner + 1], depth_m_[corner + columns_],
+                             depth_m_[corner + columns_ + 1]};
+    const auto [least, most] = std::minmax_element(depths, depths + 4);
+    const bool whole = *most - *least <= one_surface * *least;
+    for (int i = 0; i < end; ++i) {
+      const float right = static_cast<float>(i) / cell;
+      float weights[4] = {(1 - right) * (1 - down), right * (1 - down), (1 - right) * down, right * down};
+      if (!whole) keep_one_surface(depths, depth_m[first + i], weights);
+      mix(corner, weights, &terms[first + i]);
     }
+  }
+}
+
+// Corners on another surface have other light: only those near the pixel's depth count, or the nearest in depth.
+void BounceMap::keep_one_surface(const float (&depths)[4], float depth_m, float (&weights)[4]) {
+  float sum = 0;
+  int nearest = 0;
+  for (int c = 0; c < 4; ++c) {
+    if (std::abs(depths[c] - depth_m) < std::abs(depths[nearest] - depth_m)) nearest = c;
+    if (std::abs(depths[c] - depth_m) > one_surface * depth_m) weights[c] = 0;
+    sum += weights[c];
+  }
+  if (sum > 0.01f) {
+    for (float& weight : weights) weight /= sum;
+  } else {
+    for (int c = 0; c < 4; ++c) weights[c] = c == nearest ? 1.0f : 0.0f;
+  }
+}
+
+void BounceMap::mix(int corner, const float (&weights)[4], float* terms) const {
+  const int row = corner / columns_, column = corner % columns_;
+  const float* upper = &grid_[static_cast<std::size_t>(row) * tof::bounce_terms * columns_ + column];
+  const float* lower = upper + static_cast<std::ptrdiff_t>(tof::bounce_terms) * columns_;
+  for (int t = 0; t < tof::bounce_terms; ++t) {
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(t) * columns_;
+    terms[static_cast<std::ptrdiff_t>(t) * width_] =
+        weights[0] * upper[at] + weights[1] * upper[at + 1] + weights[2] * lower[at] + weights[3] * lower[at + 1];
   }
 }
 

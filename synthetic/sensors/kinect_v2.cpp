@@ -215,7 +215,7 @@ class KinectV2 {
     fill_normals(seed_, stream_of("raw samples"), static_cast<std::uint64_t>(y) * buffers.normal_blocks,
                  buffers.normal_blocks, buffers.normals.data());
     const float* relief = buffers.normals.data() + static_cast<std::ptrdiff_t>(tof::raw_samples) * width_;
-    bounce.row(y, buffers.terms.data());
+    bounce.row(y, seen.row(depth_m, y), buffers.terms.data());
     for (int x = 0; x < width_; ++x) buffers.path[x] = seen.row(path_mm, y)[x] + seen.row(relief_mm, y)[x] * relief[x];
     tof::Points points{buffers.path.data(), seen.row(direct, y), seen.row(gain, y), {}};
     for (int t = 0; t < tof::bounce_terms; ++t)

@@ -216,11 +216,28 @@ TEST(KinectV2, BouncedLightInASphereIsThatOfTheBooks) {
   for (int y = 0; y < 424; ++y)
     for (int x = 0; x < 512; ++x) cone += std::pow(1 + view.ideal(x, y).squaredNorm(), -1.5) / (366.0 * 366.0);
   std::vector<float> terms(512 * tof::bounce_terms);
+  std::vector<float> depth(512);
   for (const int y : {0, 100, 211, 423}) {
-    map.row(y, terms.data());
+    for (int x = 0; x < 512; ++x) depth[x] = static_cast<float>(2 / std::sqrt(1 + view.ideal(x, y).squaredNorm()));
+    map.row(y, depth.data(), terms.data());
     for (const int x : {0, 200, 256, 511})
       EXPECT_NEAR(terms[512 * (tof::bounce_terms - 1) + x], 0.5 * cone / (4 * M_PI) / 4,
                   0.05 * 0.5 * cone / (16 * M_PI));
+  }
+}
+
+TEST(KinectV2, LightThatReachesAWallDoesNotReachThePostBeforeIt) {
+  // A post faces the lens before a niche of two bright walls: nothing lit can be seen from its front.
+  std::vector<RaySurface> walls;
+  walls.push_back(surface(grid_mesh({0, -2, 2.7}, {0.5, 0, -0.5}, {0, 4, 0}, 0.1), 0.8f));
+  walls.push_back(surface(grid_mesh({0, -2, 2.7}, {0, 4, 0}, {-0.5, 0, -0.5}, 0.1), 0.8f));
+  walls.push_back(surface(grid_mesh({-0.06, -2, 2.0}, {0, 4, 0}, {0.12, 0, 0}, 0.05), 0.4f));
+  const RayScene scene(std::move(walls));
+  const cv::Mat with = shoot(scene, noiseless({{"multipath", 1.0}})).depth_mm,
+                without = shoot(scene, noiseless()).depth_mm;
+  for (int x = 248; x <= 263; ++x) {
+    ASSERT_NEAR(without.at<std::uint16_t>(212, x), 2000, 5) << x;
+    EXPECT_NEAR(with.at<std::uint16_t>(212, x), without.at<std::uint16_t>(212, x), 1) << x;
   }
 }
 
