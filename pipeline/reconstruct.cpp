@@ -1,5 +1,6 @@
 #include "pipeline/reconstruct.h"
 
+#include "pipeline/multipath/apply.h"
 #include "pipeline/road.h"
 #include "scenes/hash.h"
 
@@ -22,18 +23,50 @@ Made<SensorCalibration> calibration_of(const Made<Calibration>& calibration, con
           }};
 }
 
+// Corrected images are no artifacts: they are made again from the session when a stage that has to run asks for them.
+// Without bounced light the images, and so all that follows, stay the same.
+std::string corrected_hash(const std::string& images, const std::string& calibration,
+                           const std::vector<double>& numbers) {
+  return hash_hex(images + "/" + calibration + "/" + to_bytes(numbers) + "/" + code_version(EstimateMultipath::name()));
+}
+
+Made<CaptureSession> corrected(const Made<CaptureSession>& session, const Made<Calibration>& calibration,
+                               const Made<Multipath>& multipath) {
+  if (multipath.get().shots.factor == 0) return session;
+  const auto& known = multipath.get();
+  return {corrected_hash(session.content_hash(), calibration.content_hash(), {known.signal_counts, known.shots.factor}),
+          [session, calibration, multipath] {
+            return without_multipath(session.get(), calibration.get(), multipath.get());
+          }};
+}
+
+Made<DepthScan> corrected(const Made<DepthScan>& scan, const Made<SensorCalibration>& sensor,
+                          const Made<Multipath>& multipath, const std::string& name) {
+  const auto& known = multipath.get();
+  const auto found = known.scans.find(name);
+  if (found == known.scans.end() || found->second.factor == 0) return scan;
+  const BounceStrength strength = found->second;
+  return {corrected_hash(scan.content_hash(), sensor.content_hash(),
+                         {known.floor_albedo, known.other_albedo, strength.factor}),
+          [scan, sensor, multipath, strength] {
+            return without_multipath(scan.get(), sensor.get(), multipath.get(), strength);
+          }};
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
                            const StageProgress& progress) {
   check_options(options);
   Road road(options, store, progress);
-  const auto& session = source.session;
 
-  const auto calibrated = road.run<Calibrate>("calibrate", session);
+  const auto calibrated = road.run<Calibrate>("calibrate", source.session);
   const auto calibration = cameras_of(calibrated);
+  const auto multipath = road.run<EstimateMultipath>("multipath", source.session, calibration);
+  const auto session = corrected(source.session, calibration, multipath);
   const auto scanner = calibration_of(calibration, source.scan_naked_sensor);
-  const auto naked = road.run<Fuse>("fuse_naked", source.scan_naked, scanner);
+  const auto scan_naked = corrected(source.scan_naked, scanner, multipath, "scan_naked");
+  const auto naked = road.run<Fuse>("fuse_naked", scan_naked, scanner);
   const auto extracted = road.run<Extract>("extract", session, calibration, naked);
   const auto registration = road.run<Register>("registration", session, calibration, naked, extracted);
   const auto segmentation = road.run<Segment>("segment", session, calibration, naked, extracted, registration);
@@ -41,12 +74,13 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
   const auto closed = road.run<Surface>("surface", session, calibration, naked, registration, filled);
   const auto opened = road.run<Open>("open", session, calibration, naked, registration, segmentation, closed);
   const auto textured = road.run<Texture>("texture", session, calibration, naked, registration, filled, opened);
-  Reconstruction result{source.sensors, calibrated,   calibration, naked,  extracted,
-                        registration,   segmentation, filled,      closed, opened,
-                        textured,       {},           {},          {},     {}};
+  Reconstruction result{
+      source.sensors, calibrated, calibration, multipath, naked, extracted, registration, segmentation,
+      filled,         closed,     opened,      textured,  {},    {},        {},           {}};
   if (source.scan_user) {
     const auto user_scanner = calibration_of(calibration, source.scan_user_sensor);
-    result.user = road.run<Fuse>("fuse_user", *source.scan_user, user_scanner);
+    result.user =
+        road.run<Fuse>("fuse_user", corrected(*source.scan_user, user_scanner, multipath, "scan_user"), user_scanner);
     result.fitted = road.run<Fit>("fit", naked, *result.user, textured);
     result.corrected = road.run<Correct>("correct", *result.user, *result.fitted);
   }

@@ -10,6 +10,7 @@
 #include "pipeline/calibrate/calibrate.h"
 #include "pipeline/correct/correct.h"
 #include "pipeline/made.h"
+#include "pipeline/multipath/multipath.h"
 
 namespace dressform {
 
@@ -48,6 +49,7 @@ struct Reconstruction {
   std::vector<std::string> sensors;
   Made<Calibrated> calibrated;
   Made<Calibration> calibration;  // its cameras
+  Made<Multipath> multipath;
   Made<BodyModel> naked;
   Made<ExtractedViews> extracted;
   Made<Registration> registration;

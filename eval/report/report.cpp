@@ -88,6 +88,18 @@ void add_costs(HtmlPage& page, const ReportInput& input) {
   page.paragraph("Seconds of the run that made each result; a result found in the store cost nothing now.");
 }
 
+std::string word_of(const Multipath& multipath) {
+  const auto sentence = [](const std::string& images, const BounceStrength& strength) {
+    return strength.images == 0
+               ? ""
+               : fmt::format("Bounced light in {}: the floor shows {:.2f} +- {:.2f} of what is predicted, {}. ", images,
+                             strength.measured, strength.sigma, strength.factor > 0 ? "taken off" : "left alone");
+  };
+  std::string text = sentence("the shots", multipath.shots);
+  for (const auto& [name, strength] : multipath.scans) text += sentence(name, strength);
+  return text;
+}
+
 // Numbers a stage reports of itself, with no truth.
 std::string own_word(const ReportInput& input, const std::string& label) {
   const auto& made = input.reconstruction;
@@ -97,6 +109,7 @@ std::string own_word(const ReportInput& input, const std::string& label) {
                        model.converged ? "converged" : "NOT converged", model.body.vertices.size(),
                        model.body.triangles.size());
   };
+  if (label == "capture") return word_of(made.multipath.get());
   if (label == "fuse_naked") return scan(made.naked.get());
   if (label == "fuse_user") return scan(made.user->get());
   if (label == "registration") {

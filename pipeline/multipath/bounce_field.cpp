@@ -1,0 +1,219 @@
+#include "pipeline/multipath/bounce_field.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/multipath/bounce_kernel.h"
+
+namespace dressform {
+namespace {
+
+constexpr double kEmitter = 0.045;                // right of the lens, metres
+constexpr float kOneSurface = 0.05f;              // largest step in depth within one surface, in parts of the depth
+constexpr double kLeastCovered = 0.25;            // of a cell's pixels
+constexpr double kLargestError = 0.06;            // metres: what comes out larger is a wrong guess at the geometry
+constexpr double kMetresPerTurn = 2.0833333 / 3;  // the driver's mean over the three frequencies' cycles
+
+double from_emitter_m(double x, double y, double z) { return std::hypot(x - kEmitter, y, z); }
+
+double stretch_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z) / z; }
+
+struct CellFit {
+  double n = 0;
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero(), rays = Eigen::Vector3d::Zero();
+  double inverse = 0, ir = 0;
+};
+
+// Median depth of a cell's pixels, or 0.
+float median_depth(const cv::Mat& depth_mm, const cv::Rect& cell, std::vector<float>& buffer) {
+  buffer.clear();
+  for (int v = cell.y; v < cell.y + cell.height; ++v)
+    for (int u = cell.x; u < cell.x + cell.width; ++u)
+      if (const auto d = depth_mm.at<std::uint16_t>(v, u)) buffer.push_back(d);
+  if (buffer.size() < std::max(3.0, kLeastCovered * cell.area())) return 0;
+  std::nth_element(buffer.begin(), buffer.begin() + buffer.size() / 2, buffer.end());
+  return buffer[buffer.size() / 2];
+}
+
+// A plane is linear in inverse depth: 1/z = n'.(ray).
+CellFit sums_of(const cv::Mat& depth_mm, const cv::Mat& ir, const DepthOptics& optics, const cv::Rect& cell,
+                float median) {
+  CellFit fit;
+  for (int v = cell.y; v < cell.y + cell.height; ++v)
+    for (int u = cell.x; u < cell.x + cell.width; ++u) {
+      const auto d = depth_mm.at<std::uint16_t>(v, u);
+      if (d == 0 || std::abs(d - median) > kOneSurface * median) continue;
+      const auto& ray = optics.rays.at<cv::Vec2d>(v, u);
+      const Eigen::Vector3d direction(ray[0], ray[1], 1);
+      const double inverse = 1 / (1e-3 * d - optics.calibration.depth_offset_m);
+      fit.matrix += direction * direction.transpose();
+      fit.vector += inverse * direction;
+      fit.rays += direction;
+      fit.inverse += inverse;
+      if (!ir.empty()) fit.ir += ir.at<std::uint16_t>(v, u);
+      fit.n += 1;
+    }
+  return fit;
+}
+
+void fill_cell(const CellFit& fit, const Camera& camera, int index, SurfaceCells& cells) {
+  const Eigen::Vector3d centre = fit.rays / fit.n;
+  // Without the centre the plane's slope is a 2 x 2 problem, and well posed whenever the pixels span a plane.
+  const Eigen::Matrix3d spread = fit.matrix - fit.n * centre * centre.transpose();
+  const Eigen::Vector3d right = fit.vector - fit.inverse * centre;
+  const Eigen::Matrix2d slopes = spread.topLeftCorner<2, 2>();
+  if (slopes.determinant() <= 1e-4 * slopes(0, 0) * slopes(1, 1)) return;
+  const Eigen::Vector2d slope = slopes.inverse() * right.head<2>();
+  const double inverse = fit.inverse / fit.n;
+  const Eigen::Vector3d plane(slope.x(), slope.y(), inverse - slope.dot(centre.head<2>()));
+  const Eigen::Vector3d normal = -plane.normalized(), point = centre / inverse;
+  if (point.z() < 0.3) return;
+  cells.x[index] = static_cast<float>(point.x());
+  cells.y[index] = static_cast<float>(point.y());
+  cells.z[index] = static_cast<float>(point.z());
+  cells.normal_x[index] = static_cast<float>(normal.x());
+  cells.normal_y[index] = static_cast<float>(normal.y());
+  cells.normal_z[index] = static_cast<float>(normal.z());
+  const double stretch = stretch_of(point.x(), point.y(), point.z());
+  cells.solid_angle[index] = static_cast<float>(fit.n / (camera.fx * camera.fy * stretch * stretch * stretch));
+  if (!cells.ir_counts.empty()) cells.ir_counts[index] = static_cast<float>(fit.ir / fit.n / 16);
+}
+
+// Mean normals of every cell and its eight neighbours where they are of one surface.
+void smooth_normals(SurfaceCells& cells) {
+  const std::vector<float> nx = cells.normal_x, ny = cells.normal_y, nz = cells.normal_z;
+  for (int y = 0; y < cells.rows; ++y)
+    for (int x = 0; x < cells.columns; ++x) {
+      const int index = y * cells.columns + x;
+      if (cells.z[index] == 0) continue;
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (int v = std::max(0, y - 1); v <= std::min(cells.rows - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(cells.columns - 1, x + 1); ++u) {
+          const int other = v * cells.columns + u;
+          if (cells.z[other] == 0 || std::abs(cells.z[other] - cells.z[index]) > kOneSurface * cells.z[index]) continue;
+          sum += Eigen::Vector3f(nx[other], ny[other], nz[other]);
+        }
+      sum.normalize();
+      cells.normal_x[index] = sum.x(), cells.normal_y[index] = sum.y(), cells.normal_z[index] = sum.z();
+    }
+}
+
+// Cosine at which the emitter's light meets a cell, not below what makes its direct light too weak to divide by.
+double lit_cosine(const SurfaceCells& cells, int i, double distance_m) {
+  const double cosine =
+      -(cells.normal_x[i] * (cells.x[i] - kEmitter) + cells.normal_y[i] * cells.y[i] + cells.normal_z[i] * cells.z[i]) /
+      distance_m;
+  return std::max(0.1, cosine);
+}
+
+// What the emitter sends into a direction: the lens loses four powers of the cosine to the axis, lens and emitter
+// together three.
+double profile_of(double stretch) { return stretch; }
+
+}  // namespace
+
+SurfaceCells surface_cells(const cv::Mat& depth_mm, const cv::Mat& ir, const DepthOptics& optics) {
+  SurfaceCells cells;
+  cells.edge_px = std::max(4, (depth_mm.cols + 32) / 64);
+  cells.columns = depth_mm.cols / cells.edge_px;
+  cells.rows = depth_mm.rows / cells.edge_px;
+  for (auto* each :
+       {&cells.x, &cells.y, &cells.z, &cells.normal_x, &cells.normal_y, &cells.normal_z, &cells.solid_angle})
+    each->assign(cells.count(), 0.0f);
+  if (!ir.empty()) cells.ir_counts.assign(cells.count(), 0.0f);
+  std::vector<float> buffer;
+  for (int i = 0; i < cells.count(); ++i) {
+    const cv::Rect cell(i % cells.columns * cells.edge_px, i / cells.columns * cells.edge_px, cells.edge_px,
+                        cells.edge_px);
+    const float median = median_depth(depth_mm, cell, buffer);
+    if (median == 0) continue;
+    const CellFit fit = sums_of(depth_mm, ir, optics, cell, median);
+    if (fit.n >= std::max(3.0, kLeastCovered * cell.area())) fill_cell(fit, optics.calibration.ir, i, cells);
+  }
+  smooth_normals(cells);
+  return cells;
+}
+
+std::vector<float> albedo_of(const SurfaceCells& cells, double signal_counts) {
+  std::vector<float> albedo(cells.count(), 0.0f);
+  for (int i = 0; i < cells.count(); ++i) {
+    if (cells.z[i] == 0) continue;
+    const double distance = from_emitter_m(cells.x[i], cells.y[i], cells.z[i]);
+    const double stretch = stretch_of(cells.x[i], cells.y[i], cells.z[i]);
+    const double white = signal_counts * profile_of(stretch) * std::pow(stretch, -4) * lit_cosine(cells, i, distance) /
+                         (distance * distance);
+    albedo[i] = static_cast<float>(std::clamp(cells.ir_counts[i] / white, 0.0, 1.0));
+  }
+  return albedo;
+}
+
+std::vector<float> bounce_errors_m(const SurfaceCells& cells, const std::vector<float>& albedo) {
+  const int count = cells.count();
+  std::vector<float> way(count, 0.0f), sums(2 * static_cast<std::size_t>(bounce::frequencies) * count, 0.0f);
+  float *cosine[bounce::frequencies], *sine[bounce::frequencies];
+  for (int f = 0; f < bounce::frequencies; ++f) {
+    cosine[f] = &sums[static_cast<std::size_t>(2 * f) * count];
+    sine[f] = &sums[static_cast<std::size_t>(2 * f + 1) * count];
+  }
+  for (int i = 0; i < count; ++i) way[i] = static_cast<float>(from_emitter_m(cells.x[i], cells.y[i], cells.z[i]));
+  const bounce::Receivers receivers{cells.x.data(),        cells.y.data(),        cells.z.data(), cells.normal_x.data(),
+                                    cells.normal_y.data(), cells.normal_z.data(), way.data(),     count};
+  for (int i = 0; i < count; ++i) {
+    if (cells.z[i] == 0 || albedo[i] <= 0) continue;
+    const double stretch = stretch_of(cells.x[i], cells.y[i], cells.z[i]);
+    const double light = albedo[i] / M_PI * profile_of(stretch) * cells.solid_angle[i];
+    const double across = cells.z[i] * stretch;
+    bounce::add_source({cells.x[i], cells.y[i], cells.z[i], cells.normal_x[i], cells.normal_y[i], cells.normal_z[i],
+                        way[i], static_cast<float>(light), static_cast<float>(cells.solid_angle[i] * across * across)},
+                       receivers, cosine, sine);
+  }
+  std::vector<float> errors(count, 0.0f);
+  for (int i = 0; i < count; ++i) {
+    if (cells.z[i] == 0) continue;
+    const double stretch = stretch_of(cells.x[i], cells.y[i], cells.z[i]);
+    const double direct = profile_of(stretch) * lit_cosine(cells, i, way[i]) / (way[i] * way[i]);
+    double turns = 0;
+    for (int f = 0; f < bounce::frequencies; ++f) turns += std::atan2(sine[f][i], direct + cosine[f][i]) / (2 * M_PI);
+    errors[i] = static_cast<float>(std::clamp(kMetresPerTurn * turns / stretch, -kLargestError, kLargestError));
+  }
+  return errors;
+}
+
+namespace {
+
+// Error at a pixel from the four cells about it that are of its surface; 0 where none is.
+float error_at(const SurfaceCells& cells, const std::vector<float>& errors_m, int u, int v, float z) {
+  const float x = (u + 0.5f) / cells.edge_px - 0.5f, y = (v + 0.5f) / cells.edge_px - 0.5f;
+  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+  float sum = 0, weights = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int column = left + k % 2, row = top + k / 2;
+    if (column < 0 || row < 0 || column >= cells.columns || row >= cells.rows) continue;
+    const int i = row * cells.columns + column;
+    if (cells.z[i] == 0 || std::abs(cells.z[i] - z) > kOneSurface * z) continue;
+    const float weight = (1 - std::abs(x - column)) * (1 - std::abs(y - row)) + 1e-3f;
+    sum += weight * errors_m[i];
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+}  // namespace
+
+cv::Mat subtract_errors(const cv::Mat& depth_mm, const SurfaceCells& cells, const std::vector<float>& errors_m,
+                        double factor) {
+  cv::Mat result = depth_mm.clone();
+  const auto millimetres = static_cast<float>(1e3 * factor);
+  for (int v = 0; v < result.rows; ++v)
+    for (int u = 0; u < result.cols; ++u) {
+      auto& d = result.at<std::uint16_t>(v, u);
+      if (d == 0) continue;
+      const float error = millimetres * error_at(cells, errors_m, u, v, 1e-3f * d);
+      d = static_cast<std::uint16_t>(std::max(1.0f, std::round(d - error)));
+    }
+  return result;
+}
+
+}  // namespace dressform

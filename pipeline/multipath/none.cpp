@@ -1,0 +1,16 @@
+#include "pipeline/multipath/multipath.h"
+
+namespace dressform {
+namespace {
+
+struct NoneParams {};
+template <class V>
+void fields(V&, NoneParams&) {}
+
+// Depth is taken as it was measured.
+Multipath none(const CaptureSession&, const Calibration&, const NoneParams&) { return {}; }
+
+const EstimateMultipath::Variant variant{"none", none};
+
+}  // namespace
+}  // namespace dressform
