@@ -97,6 +97,8 @@ Command add_import_command(CLI::App& app) {
                       "what it shows: boards, naked, dressed (one moment: --first), scan_naked or scan_user; default "
                       "boards for iai_kinect2, else scan_user");
   command->add_option("--sensor", request.sensor, "name of the sensor; default k1, of scans handheld");
+  command->add_option("--model", request.model,
+                      "of the sensor: kinect_v2, kinect_v1, ...; default the format's usual one");
   command->add_option("--with", request.with, "a session to take over, so that sensors and roles add up");
   command->add_option("--board", options->board, "inner corners and square of the board (default 5x7x0.03)");
   command->add_option("--camera", options->camera, "fx,fy,cx,cy[,k1,k2,p1,p2,k3] of the depth images")->delimiter(',');

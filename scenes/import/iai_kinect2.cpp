@@ -11,7 +11,8 @@
 // Folders of iai_kinect2 (Wiedemeyer, University of Bremen, 2014-2015): shots NNNN_sync_color.png, NNNN_sync_ir.png,
 // NNNN_sync_depth.png of kinect2_calibration, and its results calib_color.yaml, calib_ir.yaml, calib_pose.yaml (colour
 // from infrared, metres) and calib_depth.yaml (millimetres to add to measured depth). kinect2_calibration also takes
-// colour (NNNN_color.png) and infrared (NNNN_ir.png, NNNN_depth.png) by themselves, at different times.
+// colour (NNNN_color.png) and infrared (NNNN_ir.png, NNNN_depth.png) by themselves, at different times. kinect2_viewer
+// saves NNNN_color.jpg and NNNN_depth.png, rectified, shifted, and with "qhd" or "hd" on colour's grid.
 namespace dressform {
 namespace {
 
@@ -87,6 +88,11 @@ Camera read_camera(const fs::path& file, cv::Size size) {
   Camera camera{size.width,         size.height, k.at<double>(0, 0), k.at<double>(1, 1), k.at<double>(0, 2),
                 k.at<double>(1, 2), {}};
   if (!(camera.fx >= 1 && camera.fy >= 1)) yaml.fail("cameraMatrix", "found no focal lengths; expected pixels");
+  if (std::abs(camera.cx / size.width - 0.5) > 0.15 || std::abs(camera.cy / size.height - 0.5) > 0.15)
+    yaml.fail("cameraMatrix",
+              fmt::format("found a principal point of {:.0f}, {:.0f} for images of {} x {}; expected the "
+                          "camera of images of this size",
+                          camera.cx, camera.cy, size.width, size.height));
   if (std::min(d.rows, d.cols) != 1 || d.total() < 4)
     yaml.fail("distortionCoefficients", "found a matrix; expected a row of 5 numbers");
   for (int i = 0; i < static_cast<int>(d.total()); ++i) {
@@ -110,8 +116,31 @@ Isometry3d read_step(const fs::path& file) {
   return JsonValue(file.string() + ": rotation", rows).rigid();
 }
 
+// Depth as kinect2_viewer saves it: the offset is off, and so is the distortion.
+void read_rectified_calibration(const fs::path& folder, Recording& recording) {
+  constexpr int color_width = 1920, color_height = 1080;
+  const cv::Size size = read_image(recording.frames.front().depth, kDepthImage).size();
+  const bool on_color = size.width * color_height == size.height * color_width;
+  const fs::path file = folder / (on_color ? "calib_color.yaml" : "calib_ir.yaml");
+  if (!fs::exists(file)) return;
+  Camera& camera = recording.sensor.ir;
+  if (on_color) {  // its matrix divided by the scale, as kinect2_bridge does
+    const double scale = static_cast<double>(size.width) / color_width;
+    camera = read_camera(file, {color_width, color_height});
+    camera.width = size.width, camera.height = size.height;
+    camera.fx *= scale, camera.fy *= scale, camera.cx *= scale, camera.cy *= scale;
+  } else {
+    camera = read_camera(file, size);
+  }
+  camera.distortion = {};
+  recording.calibrated = true;
+  recording.notes.push_back("images of kinect2_viewer: rectified and shifted by it");
+}
+
 void read_calibration(const fs::path& folder, const RecordingUse& use, Recording& recording) {
   const RecordedFrame& first = recording.frames.front();
+  if (use == RecordingUse::scan && first.color.extension() == ".jpg")
+    return read_rectified_calibration(folder, recording);
   const auto has = [&](const char* name) { return fs::exists(folder / name); };
   if (use == RecordingUse::boards) {
     if (!has("calib_color.yaml") || !has("calib_ir.yaml") || !has("calib_pose.yaml")) {

@@ -35,8 +35,10 @@ ImportRequest completed(ImportRequest request, const fs::path& recording) {
     throw InputError("--sensor " + request.sensor, "expected letters, digits, _, - and . (not first)");
   if (request.world_from_sensor && use == RecordingUse::scan)
     throw InputError("--place", "found for a scan; expected it for a sensor of the rig, with another --role");
-  if (request.name.empty() && request.with.empty())
-    request.name = fs::absolute(recording).lexically_normal().filename().string();
+  if (request.name.empty() && request.with.empty()) {
+    const fs::path folder = fs::absolute(recording).lexically_normal();
+    request.name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  }
   return request;
 }
 
@@ -76,6 +78,7 @@ std::optional<SensorCalibration> calibration_for(const Recording& recording, con
                                                  const Sizes& sizes, const fs::path& first_depth) {
   SensorCalibration sensor = recording.sensor;
   const RecordingUse use = use_of(request.role);
+  if (!request.model.empty()) sensor.model = request.model;
   if (request.camera) {
     sensor.ir = *request.camera;
     sensor.ir.width = sizes.depth.width, sensor.ir.height = sizes.depth.height;

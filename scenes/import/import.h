@@ -42,6 +42,7 @@ struct ImportRequest {
   std::string role;    // "boards", "naked", "dressed", "scan_naked", "scan_user"; empty: boards or scan_user, whichever
                        // the format is made for
   std::string sensor;  // empty: "handheld" for scans, else "k1"
+  std::string model;   // of the sensor, which its noise goes by; empty: what the format is made for
   std::string name;    // of the session; empty: of `with`, or of the folder
   std::string licence;                 // empty: of `with`, or "unknown"
   int first = 0, every = 1, most = 0;  // frames to take: from `first`, every so many, at most so many (0: all)

@@ -142,13 +142,14 @@ TEST_F(ImportTum, FramesWithoutColourAreLeftOutAndCounted) {
 TEST_F(ImportTum, ChosenFramesCameraAndNames) {
   ImportRequest request = of("tum");
   request.first = 1, request.every = 2;
-  request.sensor = "xtion", request.name = "desk", request.licence = "CC-BY-4.0";
+  request.sensor = "xtion", request.model = "xtion", request.name = "desk", request.licence = "CC-BY-4.0";
   request.camera = Camera{0, 0, 517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
   const CaptureSession session = imported(request);
   EXPECT_EQ(session.scans.at("scan_user").depth_mm.size(), 2u);
   EXPECT_EQ(session.scans.at("scan_user").depth_mm[1].at<std::uint16_t>(9, 9), 4000);
   EXPECT_EQ(session.calibration->sensors.at("xtion").ir.fx, 517.3);
   EXPECT_EQ(session.calibration->sensors.at("xtion").ir.distortion[4], 1.1633);
+  EXPECT_EQ(session.calibration->sensors.at("xtion").model, "xtion");
   EXPECT_EQ(session.name, "desk");
   EXPECT_EQ(session.licence, "CC-BY-4.0");
 }
@@ -322,7 +323,9 @@ class ImportKinect2 : public Import {
 };
 
 TEST_F(ImportKinect2, BoardsWithoutCalibration) {
+  recording_ += "/";
   const CaptureSession session = imported(of("iai_kinect2"));
+  EXPECT_EQ(session.name, "recording");
   EXPECT_FALSE(session.calibration);
   EXPECT_THAT(session.sensors, ElementsAre("k1"));
   ASSERT_TRUE(session.boards);
@@ -383,6 +386,28 @@ TEST_F(ImportKinect2, ShotsNotTakenTogether) {
   EXPECT_EQ(imported(request).boards->shots.at("k1").size(), 1u);
 }
 
+TEST_F(ImportKinect2, WhatTheViewerSavesIsRectifiedAndShiftedAlready) {
+  fs::remove_all(recording_);
+  for (int i = 0; i < 2; ++i) {
+    picture(number(i) + "_depth.png", ramp(kIr, 900, 0));
+    write(number(i) + "_color.jpg", "never opened");
+    write(number(i) + "_depth_colored.png", "never opened");
+  }
+  calibrate();
+  SensorCalibration sensor = imported(of("iai_kinect2", "scan_user")).calibration->sensors.at("handheld");
+  EXPECT_EQ(sensor.ir.fx, 365.5);
+  EXPECT_EQ(sensor.ir.distortion[0], 0);
+  EXPECT_EQ(sensor.depth_offset_m, 0);
+  fs::remove_all(session_);
+  for (int i = 0; i < 2; ++i) picture(number(i) + "_depth.png", ramp({96, 54}, 900, 0));  // 1920 x 1080 by 20
+  write("calib_color.yaml", yaml_camera("1060, 0., 960, 0., 1058, 530, 0., 0., 1.", "0.05, -0.06, 0, 0, 0.02"));
+  sensor = imported(of("iai_kinect2", "scan_user")).calibration->sensors.at("handheld");
+  EXPECT_EQ(sensor.ir.width, 96);
+  EXPECT_DOUBLE_EQ(sensor.ir.fx, 53);
+  EXPECT_DOUBLE_EQ(sensor.ir.cy, 26.5);
+  EXPECT_EQ(sensor.ir.distortion[0], 0);
+}
+
 TEST_F(ImportKinect2, ImageErrors) {
   fs::remove(recording_ / "0003_sync_ir.png");
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("0003_sync_ir.png: is missing; expected color, ir and depth"));
@@ -414,6 +439,8 @@ TEST_F(ImportKinect2, CalibrationErrors) {
   EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: distortionCoefficients: found 8 coefficients"));
   write("calib_ir.yaml", yaml_camera("365, 0, 31, 0, .Nan, 26, 0, 0, 1", "0, 0, 0, 0, 0"));
   EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: cameraMatrix: found a number that is not finite"));
+  write("calib_ir.yaml", yaml_camera("365, 0, 255, 0, 364, 26, 0, 0, 1", "0, 0, 0, 0, 0"));
+  EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: cameraMatrix: found a principal point of 255, 26 for images"));
   write("calib_ir.yaml", "365 364");
   EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: is damaged"));
   write("calib_ir.yaml", "%YAML:1.0\ncameraMatrix: !!opencv-matrix\n   rows: 3\n   cols: [");
