@@ -39,7 +39,10 @@ struct GarmentSpec {
   double length = 1.0;                   // trousers, skirts: part of the way from waist to ankle; shirts: see below
   double hem_below_waist_m = 0.20;       // shirts: how far the hem hangs below the waist
   double ease_m = 0.06;                  // garment girth minus body girth, at chest (tops) or hip (bottoms)
-  double fold_amplitude_m = 0.006;       // depth of the folds
+  double fullness = 0.06;                // cloth beyond the smooth shape, part of its width: it falls in folds
+  double flare = 0.3;                    // skirts, dresses: how much wider the hem is cut than it hangs
+  double bending_length_m = 0.018;       // a strip of the cloth bends by its own weight over this length (Peirce)
+  double cloth_edge_m = 0.0075;          // of the triangles that the cloth is made of
   PrintSpec print;
 };
 

@@ -36,7 +36,10 @@ void fields(V& v, GarmentSpec& garment) {
   v("length", garment.length, 0.1, 1.1, "", "trousers, skirts, dresses: part of the way from waist to ankle");
   v("hem_below_waist_m", garment.hem_below_waist_m, 0.0, 0.6, "m", "shirts: how far the hem hangs below the waist");
   v("ease_m", garment.ease_m, 0.0, 0.5, "m", "garment girth minus body girth, at chest (tops) or hip (bottoms)");
-  v("fold_amplitude_m", garment.fold_amplitude_m, 0.0, 0.03, "m", "depth of the folds");
+  v("fullness", garment.fullness, 0.0, 0.3, "", "cloth beyond the smooth shape, part of its width: it falls in folds");
+  v("flare", garment.flare, 0.0, 1.5, "", "skirts, dresses: how much wider the hem is cut than it hangs");
+  v("bending_length_m", garment.bending_length_m, 0.01, 0.08, "m", "over which a strip of the cloth bends by its weight");
+  v("cloth_edge_m", garment.cloth_edge_m, 0.005, 0.02, "m", "edge of the triangles that the cloth is made of");
 }
 
 template <class V>

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "synthetic/garments/clip.h"
+#include "synthetic/garments/drape/cloth.h"
 #include "synthetic/garments/garment.h"
 #include "synthetic/geometry/solid.h"
 
@@ -32,7 +33,14 @@ struct GarmentShape {
   std::vector<ClothPiece> pieces;
   std::vector<Level> seams;                             // triangles are split along these
   std::function<int(const Vector3d& center)> piece_of;  // of a triangle
+  Fullness fullness;                                    // of the cloth against the solid
+  Level held;                                           // positive where a waistband holds the cloth
 };
+
+// Wider by a part across the axis, as long along it.
+inline Eigen::Matrix3d wider_round(const Vector3d& axis, double part) {
+  return (1 + part) * Eigen::Matrix3d::Identity() - part * axis * axis.transpose();
+}
 
 GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed);
 GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed);

@@ -9,7 +9,9 @@
 
 #include "scenes/error.h"
 #include "scenes/mesh_io.h"
+#include "synthetic/garments/drape/cloth.h"
 #include "synthetic/garments/print.h"
+#include "synthetic/geometry/self_intersection.h"
 #include "synthetic/geometry/surface_distance.h"
 
 namespace dressform {
@@ -22,6 +24,7 @@ GarmentSpec garment(const std::string& kind, double sleeve_or_length, const std:
   spec.sleeve = spec.length = sleeve_or_length;
   spec.ease_m = 0.08;
   spec.print.kind = print;
+  spec.cloth_edge_m = 0.010;  // coarser than usual, for time
   return spec;
 }
 
@@ -32,6 +35,23 @@ BodySpec woman() {
   spec.chest_m = 0.95;
   spec.waist_m = 0.80;
   spec.hip_m = 1.02;
+  return spec;
+}
+
+BodySpec sampled(const std::string& who, int seed) {
+  BodySpec spec;
+  spec.sample = who;
+  spec.sample_seed = seed;
+  return spec;
+}
+
+BodySpec stout_man() {
+  BodySpec spec;
+  spec.stature_m = 1.73;
+  spec.chest_m = 1.13;
+  spec.waist_m = 1.02;
+  spec.hip_m = 1.07;
+  spec.arm_angle_deg = 20;
   return spec;
 }
 
@@ -65,12 +85,12 @@ void expect_well_cut(const Garment& garment, const std::vector<std::string>& nam
 }
 
 // Every vertex, edge middle and triangle middle.
-void expect_clear(const Mesh& cloth, const Mesh& surface, double clearance_m, bool open_surface) {
+void expect_clear(const Mesh& cloth, const Mesh& surface, double clearance_m) {
   const SurfaceDistance tree(surface);
   double worst = 1;
   const auto look = [&](const Vector3d& p) {
     const auto near = tree.closest(p, 0.03);
-    if (!near.found || (open_surface && std::abs(near.height) < 0.7 * near.distance)) return;
+    if (!near.found) return;
     worst = std::min(worst, near.height);
   };
   for (const Vector3i& t : cloth.triangles) {
@@ -78,6 +98,20 @@ void expect_clear(const Mesh& cloth, const Mesh& surface, double clearance_m, bo
     for (const Vector3d& p : {a, Vector3d(0.5 * (a + b)), Vector3d((a + b + c) / 3)}) look(p);
   }
   EXPECT_GE(worst, clearance_m);
+}
+
+// Lies as cloth does: hardly stretched against its pattern, and nothing meets anything (exact predicates).
+void expect_at_rest(const Garment& garment, const Mesh& body, const Mesh& under) {
+  const Mesh& mesh = garment.textured.mesh;
+  Cloth cloth;
+  cloth.features = features_of(mesh.triangles);
+  cloth.rest_m = garment.rest_m;
+  ASSERT_EQ(cloth.rest_m.size(), cloth.features.edges.size());
+  EXPECT_LE(strain_quantile(cloth, mesh.vertices, 0.95), 0.05);
+  EXPECT_GT(strain_quantile(cloth, mesh.vertices, 0.95), 0.001);  // it did move
+  EXPECT_EQ(self_intersections(mesh), 0);
+  EXPECT_TRUE(crossing_triangles(mesh, body).empty());
+  EXPECT_TRUE(crossing_triangles(mesh, under).empty());
 }
 
 void expect_readable(const TexturedMesh& textured) {
@@ -111,11 +145,12 @@ TEST_P(Outfits, FitOutsideTheBodyWithExactRims) {
   else
     expect_well_cut(worn[0], {"waist", "hem"});
   expect_well_cut(worn[1], {"neck", "left_cuff", "right_cuff", "hem"});
+  expect_at_rest(worn[0], body.mesh, {});
+  expect_at_rest(worn[1], body.mesh, worn[0].textured.mesh);
   for (const Garment& each : worn) {
-    expect_clear(each.textured.mesh, body.mesh, 0.003, false);
+    expect_clear(each.textured.mesh, body.mesh, 0.002);
     expect_readable(each.textured);
   }
-  expect_clear(worn[1].textured.mesh, worn[0].textured.mesh, 0.001, true);
 }
 
 const Outfit kOutfits[] = {
@@ -123,11 +158,15 @@ const Outfit kOutfits[] = {
     {"group3", {}, garment("trousers", 0.97, "denim"), garment("shirt", 0.96, "stripes")},
     {"group4", {}, garment("skirt", 0.48), garment("shirt", 0.42, "stars")},
     {"woman", woman(), garment("trousers", 0.5), garment("shirt", 0.3, "complex")},
+    {"sampled_woman", sampled("woman", 3), garment("skirt", 0.7), garment("shirt", 0.9, "plaid")},
+    {"sampled_man", sampled("man", 2), garment("trousers", 1.0), garment("shirt", 0.5)},
+    {"stout_man", stout_man(), garment("trousers", 0.55), garment("shirt", 0.42)},
 };
 INSTANTIATE_TEST_SUITE_P(Garments, Outfits, testing::ValuesIn(kOutfits),
                          [](const auto& info) { return std::string(info.param.name); });
 
-// Nowhere does a cuff run up into the sleeve or over to the trunk.
+// Nowhere does a cuff run up into the sleeve or over to the trunk: it is cut straight, and waves by a centimetre or two
+// as it hangs.
 TEST(Garment, CuffsGoRoundTheArmAlone) {
   BodySpec spec;
   spec.arm_angle_deg = 16;
@@ -144,7 +183,7 @@ TEST(Garment, CuffsGoRoundTheArmAlone) {
         least = std::min(least, axis.dot(p - shoulder));
         most = std::max(most, axis.dot(p - shoulder));
       }
-      EXPECT_LT(most - least, 0.012) << rim.name << " of a sleeve of " << sleeve;
+      EXPECT_LT(most - least, 0.025) << rim.name << " of a sleeve of " << sleeve;
     }
   }
 }

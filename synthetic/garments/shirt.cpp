@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "scenes/random.h"
-#include "synthetic/garments/creases.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/garments/limb_outlines.h"
 #include "synthetic/garments/underarm.h"
@@ -12,6 +11,8 @@ namespace {
 
 constexpr double kBack = -0.02;       // of the torso's middle and of the side seams, z in m
 constexpr double kClearance = 0.006;  // of the cloth off the body, m
+constexpr double kRib = 0.03;         // width of the band at the neck, m
+constexpr double kRibDraw = 0.10;     // by how much it is shorter than the rim that it is sewn to
 
 // Cloth stretched over the trunk and what is worn below.
 ClothRows taut_torso(const Body& body, const std::vector<Garment>& inner, double hem_y) {
@@ -19,26 +20,15 @@ ClothRows taut_torso(const Body& body, const std::vector<Garment>& inner, double
                    [](double) { return Vector2d(kBack, 0); });
 }
 
-ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const ClothRows& taut, double hem_y, Seed seed) {
+ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const ClothRows& taut) {
   const BodyLandmarks& m = body.landmarks;
   const ClothRows least = grown(taut, kClearance);
   // Cloth hangs from the chest and the shoulder blades (downwards is backwards along s) and rises freely to the neck.
   const ClothRows hung = smoothed(span_hollows(taut, 4.0, 0.10), 0.012, 0.06);
   const int chest = hung.row_of(m.chest);
-  const double ease = spec.ease_m - (row_girth(hung, chest) - tape_girth(body.mesh, m.chest));
-  const std::vector<Crease> creases = draw_creases(
-      {
-          {m.waist - 0.10, m.waist + 0.10, 0.0, 0.5, 0.16, 0.014, 0.9, 16},
-          {hem_y - 0.02, hem_y + 0.14, 1.5, 0.25, 0.26, 0.020, 1.0, 14},
-          {m.chest - 0.10, m.chest + 0.05, 0.9, 0.5, 0.14, 0.016, 0.55, 12},
-      },
-      spec.fold_amplitude_m, seed, stream_of("shirt torso creases"));
-  const double fade_from = m.armpit - 0.02, fade = 0.10;
-  const auto height = [&](double s, double angle) {
-    const double t = std::clamp((fade_from + fade - s) / fade, 0.0, 1.0);
-    return t * crease_height(creases, s, angle, 0.16);
-  };
-  return no_smaller(displaced(grown(hung, std::max(0.0, ease / (2 * M_PI))), height), least, 0.006);
+  const double asked = (tape_girth(body.mesh, m.chest) + spec.ease_m) / (1 + spec.fullness);
+  const double ease = std::max(0.0, asked - row_girth(hung, chest));
+  return no_smaller(grown(hung, ease / (2 * M_PI)), least, 0.006);
 }
 
 ClothRows taut_sleeve(const Body& body, double side, double cuff) {
@@ -46,24 +36,12 @@ ClothRows taut_sleeve(const Body& body, double side, double cuff) {
                    [](double) { return Vector2d(0, 0); });
 }
 
-ClothRows shirt_sleeve(const GarmentSpec& spec, const Body& body, const ClothRows& taut, double side, double cuff,
-                       Seed seed) {
-  const Tube::Frame& frame = taut.frame;
+ClothRows shirt_sleeve(const GarmentSpec& spec, const ClothRows& taut) {
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.10, 6.0), 0.012, 0.08);
-  const double elbow = (body.joints.at(side > 0 ? "ElbowLeft" : "ElbowRight") - frame.origin).norm();
-  const std::vector<Crease> creases = draw_creases(
-      {
-          {elbow - 0.07, elbow + 0.06, 0.0, 0.5, 0.11, 0.011, 1.2, 12},
-          {0.10, std::max(0.12, cuff - 0.02), 0.3, 0.8, 0.12, 0.013, 0.8, 14},
-      },
-      spec.fold_amplitude_m, seed, stream_of("sleeve creases") + (side > 0 ? 0 : 1));
   const double ease = 0.004 + 0.9 * spec.ease_m / (2 * M_PI);
   // On the shoulder the cloth lies close.
-  const auto height = [&](double s, double angle) {
-    const double t = std::clamp((s - 0.05) / 0.06, 0.0, 1.0), u = std::clamp(s / 0.12, 0.0, 1.0);
-    return 0.005 + u * (ease - 0.005) + t * crease_height(creases, s, angle, 0.055);
-  };
+  const auto height = [&](double s, double) { return 0.005 + std::clamp(s / 0.12, 0.0, 1.0) * (ease - 0.005); };
   return no_smaller(displaced(hung, height), least, 0.005);
 }
 
@@ -73,12 +51,12 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   const BodyLandmarks& m = body.landmarks;
   const double hem_y = m.waist - spec.hem_below_waist_m;
   const ClothRows trunk = taut_torso(body, inner, hem_y);
-  const Tube torso = shirt_torso(spec, body, trunk, hem_y, seed).tube();
+  const Tube torso = shirt_torso(spec, body, trunk).tube();
   const double cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, 1);
   const double right_cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, -1);
   const ClothRows left_arm = taut_sleeve(body, 1, cuff), right_arm = taut_sleeve(body, -1, right_cuff);
-  const Tube left = shirt_sleeve(spec, body, left_arm, 1, cuff, seed).tube();
-  const Tube right = shirt_sleeve(spec, body, right_arm, -1, right_cuff, seed).tube();
+  const Tube left = shirt_sleeve(spec, left_arm).tube();
+  const Tube right = shirt_sleeve(spec, right_arm).tube();
   const Underarm left_gap(trunk.tube(), left_arm.tube(), 1, cuff);
   const Underarm right_gap(trunk.tube(), right_arm.tube(), -1, right_cuff);
 
@@ -127,6 +105,17 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
                           return std::min(edge - p.y(), -sleeve_over_torso(p));
                         }});
 
+  // The trunk is wider from under the arms down, a sleeve from below the shoulder.
+  const auto wider = [=](double y) { return spec.fullness * std::clamp((m.armpit + 0.02 - y) / 0.10, 0.0, 1.0); };
+  // A rib draws the neckline in.
+  const Level beyond_neck = shape.cuts.front().beyond;
+  shape.fullness = [=](const Vector3d& p) -> Eigen::Matrix3d {
+    const double rib = std::clamp(1 + beyond_neck(p) / kRib, 0.0, 1.0);
+    if (rib > 0) return (1 - kRibDraw * rib) * Eigen::Matrix3d::Identity();
+    if (sleeve_over_torso(p) < 0) return wider_round(Vector3d::UnitY(), wider(p.y()));
+    const Tube& tube = p.x() > 0 ? left : right;
+    return wider_round(tube.frame().axis, spec.fullness * std::clamp((tube.polar(p)[0] - 0.06) / 0.08, 0.0, 1.0));
+  };
   const ArcLength torso_arc(torso), left_arc(left), right_arc(right);
   const double armpit = m.armpit, top = m.neck + 0.05;
   shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
@@ -137,7 +126,8 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
                             const double level = std::min(at[0], armpit);
                             const double outwards = std::max(0.0, at[2] - torso.radius(level, angle));
                             const double side = std::abs(center_angle) < M_PI / 2 ? 1 : -1;  // front or back
-                            const double u = torso_arc.at(level, angle) + side * std::copysign(outwards, angle);
+                            const double u =
+                                (1 + wider(p.y())) * torso_arc.at(level, angle) + side * std::copysign(outwards, angle);
                             // Over the shoulder the cloth rolls backwards: its depth counts as length, too.
                             const double w = std::clamp((p.y() - armpit) / 0.06, 0.0, 1.0);
                             const double rise = 0.6 * w * std::max(0.0, 0.10 - std::abs(p.z() - kBack));

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "scenes/random.h"
-#include "synthetic/garments/creases.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/garments/limb_outlines.h"
 
@@ -11,35 +10,18 @@ namespace {
 
 constexpr double kClearance = 0.005;
 
-// Flutes along the skirt that grow towards the hem: a few waves of uneven width.
-double flute_height(double angle, Seed seed) {
-  const std::uint64_t stream = stream_of("skirt flutes");
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto u = uniform4(seed, stream, k);
-    const int waves = 5 + 3 * k + static_cast<int>(u[1] * 2);
-    sum += (k == 0 ? 0.55 : 0.4) * std::sin(waves * angle + 2 * M_PI * u[0] + 0.7 * std::sin(angle + 6 * u[2]));
-  }
-  return sum;
-}
-
-ClothRows skirt_rows(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, double hem_y,
-                     Seed seed) {
+// The smooth shape that the cloth is put on as: close at the waist, wider below the hip.
+ClothRows skirt_rows(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, double hem_y) {
   const BodyLandmarks& m = body.landmarks;
   const ClothRows taut = taut_rows(torso_frame(), hem_y - 0.04, m.waist + 0.06, trunk_outline(body, inner, 0.002),
                                    [](double) { return Vector2d(-0.01, 0); });
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.35, 0.0), 0.015, 0.06);
-  const double ease = spec.ease_m - (row_girth(hung, hung.row_of(m.hip)) - tape_girth(body.mesh, m.hip));
-  const std::vector<Crease> creases = draw_creases({{m.hip - 0.06, m.waist - 0.06, 0.5, 0.9, 0.12, 0.016, 0.6, 12}},
-                                                   spec.fold_amplitude_m, seed, stream_of("skirt creases"));
-  const auto height = [&](double s, double angle) {
+  const double asked = (tape_girth(body.mesh, m.hip) + spec.ease_m) / (1 + spec.fullness);
+  const double ease = std::max(0.0, asked - row_girth(hung, hung.row_of(m.hip)));
+  const auto height = [&](double s, double) {
     const double below_waist = std::clamp((m.waist - 0.01 - s) / (m.waist - m.hip), 0.0, 1.0);
-    const double below_hip = std::max(0.0, m.hip - s);
-    const double flare = 0.07 * below_hip, flutes = std::min(1.0, below_hip / 0.35);
-    return std::max(0.0, (0.4 + 0.6 * below_waist) * ease / (2 * M_PI)) + flare +
-           below_waist * crease_height(creases, s, angle, 0.15) +
-           1.8 * spec.fold_amplitude_m * flutes * flute_height(angle, seed);
+    return (0.4 + 0.6 * below_waist) * ease / (2 * M_PI) + 0.07 * std::max(0.0, m.hip - s);
   };
   return no_smaller(displaced(hung, height), least, 0.006);
 }
@@ -50,7 +32,7 @@ GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   const BodyLandmarks& m = body.landmarks;
   const double waist_y = m.waist - 0.012;
   const double hem_y = waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - m.ankle);
-  const Tube tube = skirt_rows(spec, body, inner, hem_y, seed).tube();
+  const Tube tube = skirt_rows(spec, body, inner, hem_y).tube();
   GarmentShape shape;
   shape.field = [tube](const Vector3d& p) { return tube.field(p); };
   const double reach = tube.largest_radius() + 0.03;
@@ -58,11 +40,19 @@ GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   shape.cuts.push_back({"waist", [=](const Vector3d& p) { return p.y() - (waist_y - 0.06 * p.z()); }});
   const double slant = 0.03 * (2 * uniform(seed, stream_of("skirt hem"), 0) - 1);
   shape.cuts.push_back({"hem", [=](const Vector3d& p) { return hem_y + slant * p.x() - p.y(); }});
+  // Nothing at the waistband, the fullness at the hip, the flare at the hem.
+  const auto wider = [=](double y) {
+    const double seat = std::clamp((waist_y - 0.03 - y) / (waist_y - 0.03 - m.hip), 0.0, 1.0);
+    const double skirt = std::clamp((m.hip + 0.05 - y) / std::max(0.1, m.hip + 0.05 - hem_y), 0.0, 1.1);
+    return seat * spec.fullness + skirt * spec.flare;
+  };
+  shape.fullness = [=](const Vector3d& p) { return wider_round(Vector3d::UnitY(), wider(p.y())); };
+  shape.held = [=](const Vector3d& p) { return p.y() - (waist_y - 0.06 * p.z() - 0.03); };
   const ArcLength arc(tube);
   shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
                             const Vector3d at = tube.polar(p);
                             const double angle = angle_near(at[1], angle_near(tube.polar(near)[1], 0));
-                            return Vector2d(arc.at(p.y(), angle), waist_y + 0.03 - p.y());
+                            return Vector2d((1 + wider(p.y())) * arc.at(p.y(), angle), waist_y + 0.03 - p.y());
                           },
                           true});
   shape.piece_of = [](const Vector3d&) { return 0; };

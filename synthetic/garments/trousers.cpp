@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "scenes/random.h"
-#include "synthetic/garments/creases.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/garments/limb_outlines.h"
 
@@ -11,30 +10,25 @@ namespace {
 
 constexpr double kClearance = 0.005;
 
-ClothRows trousers_seat(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+ClothRows trousers_seat(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner) {
   const BodyLandmarks& m = body.landmarks;
   const ClothRows taut = taut_rows(torso_frame(), m.crotch - 0.012, m.waist + 0.06, trunk_outline(body, inner, 0.002),
                                    [](double) { return Vector2d(-0.01, 0); });
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.35, 0.12), 0.012, 0.06);
   const int hip = hung.row_of(m.hip);
-  const double ease = spec.ease_m - (row_girth(hung, hip) - tape_girth(body.mesh, m.hip));
-  const std::vector<Crease> creases = draw_creases({{m.hip - 0.05, m.waist - 0.06, 0.6, 0.8, 0.12, 0.016, 0.6, 14}},
-                                                   spec.fold_amplitude_m, seed, stream_of("seat creases"));
-  const auto height = [&](double s, double angle) {
-    const double t = std::clamp((m.waist - s) / 0.06, 0.0, 1.0);  // the waistband lies flat
-    return t * crease_height(creases, s, angle, 0.15);
-  };
+  const double asked = (tape_girth(body.mesh, m.hip) + spec.ease_m) / (1 + spec.fullness);
+  const double ease = std::max(0.0, asked - row_girth(hung, hip));
   // The waistband sits close; the ease is reached at the hips.
   const auto ease_at = [&](double s) {
     const double t = std::clamp((m.waist - 0.01 - s) / (m.waist - m.hip), 0.0, 1.0);
-    return std::max(0.0, (0.4 + 0.6 * t) * ease / (2 * M_PI));
+    return (0.4 + 0.6 * t) * ease / (2 * M_PI);
   };
-  const ClothRows eased = displaced(hung, [&](double s, double angle) { return ease_at(s) + height(s, angle); });
+  const ClothRows eased = displaced(hung, [&](double s, double) { return ease_at(s); });
   return no_smaller(eased, least, 0.005);
 }
 
-ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, double hem_y, Seed seed) {
+ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, double hem_y) {
   const BodyLandmarks& m = body.landmarks;
   const Tube::Frame frame = leg_frame(body, side);
   const Outline outline = leg_outline(body, side);
@@ -53,19 +47,12 @@ ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, do
   const ClothRows least = grown(taut, kClearance);
   // Falls from the thigh almost straight.
   const ClothRows hung = smoothed(span_hollows(taut, 0.30, 0.055), 0.015, 0.08);
-  const std::vector<Crease> creases = draw_creases(
-      {
-          {m.knee - 0.10, m.knee + 0.10, 0.0, 0.6, 0.13, 0.014, 1.0, 14},
-          {hem_y, hem_y + 0.18, 0.1, 0.5, 0.13, 0.014, 1.1, 14},
-          {m.knee + 0.12, m.crotch - 0.02, 0.7, 0.9, 0.14, 0.016, 0.7, 12},
-      },
-      spec.fold_amplitude_m, seed, stream_of("leg creases") + (side > 0 ? 0 : 1));
   const double ease = 0.003 + 0.7 * spec.ease_m / (2 * M_PI);
   // Between the thighs there is no room for ease or folds.
   const auto height = [&](double s, double angle) {
     const double t = std::clamp((m.crotch - s - 0.03) / 0.22, 0.0, 1.0), inner_side = 0.5 - 0.5 * std::cos(angle);
     const double room = 1 - (1 - t) * inner_side * inner_side;
-    return room * (ease + crease_height(creases, s, angle, 0.08));
+    return room * ease;
   };
   return no_smaller(displaced(hung, height), least, 0.004);
 }
@@ -77,9 +64,9 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
   const double waist_y = m.waist - 0.015, ankle_y = std::max(m.ankle, 0.03);
   // The shortest legs are 7 cm long: above that they are still one with the seat.
   const double hem_y = std::min(waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y), m.crotch - 0.07);
-  const Tube seat = trousers_seat(spec, body, inner, seed).tube();
-  const Tube left = trouser_leg(spec, body, 1, hem_y, seed).tube();
-  const Tube right = trouser_leg(spec, body, -1, hem_y, seed).tube();
+  const Tube seat = trousers_seat(spec, body, inner).tube();
+  const Tube left = trouser_leg(spec, body, 1, hem_y).tube();
+  const Tube right = trouser_leg(spec, body, -1, hem_y).tube();
 
   GarmentShape shape;
   // Each leg stays on its own side of the middle, further off the further below the crotch.
@@ -102,6 +89,9 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
                           }});
   }
 
+  const auto wider = [=](double y) { return spec.fullness * std::clamp((waist_y - 0.03 - y) / 0.10, 0.0, 1.0); };
+  shape.fullness = [=](const Vector3d& p) { return wider_round(Vector3d::UnitY(), wider(p.y())); };
+  shape.held = [=](const Vector3d& p) { return p.y() - (waist_y - waist_slant * p.z() - 0.03); };
   const ArcLength seat_arc(seat), left_arc(left), right_arc(right);
   for (const double side : {1.0, -1.0}) {
     const Tube leg = side > 0 ? left : right;
@@ -117,7 +107,8 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
                               const double u_seat = seat_arc.at(y, seat_angle) - seat_arc.at(y, seat_side);
                               double t = std::clamp((p.y() - crotch + 0.03) / 0.07, 0.0, 1.0);
                               t = t * t * (3 - 2 * t);
-                              return Vector2d(u_leg + t * (u_seat - u_leg), waist_y + 0.03 - p.y());
+                              return Vector2d((1 + wider(p.y())) * (u_leg + t * (u_seat - u_leg)),
+                                              waist_y + 0.03 - p.y());
                             },
                             false});
   }
