@@ -38,6 +38,12 @@ struct GarmentSpec {
   double sleeve = 0.45;                  // part of the arm from shoulder to wrist that is covered (shirts)
   double length = 1.0;                   // trousers, skirts: part of the way from waist to ankle; shirts: see below
   double hem_below_waist_m = 0.20;       // shirts: how far the hem hangs below the waist
+  std::string neck = "round";            // shirts, dresses: round, v
+  double neck_depth_m = 0.10;            // of the neckline in front, below the neck's side
+  std::string collar = "none";           // shirts, dresses: none, polo, hood
+  bool tucked = false;                   // shirts: worn inside the trousers or skirt
+  double hem_slant = 0;                  // of the hem: rise per metre towards the front
+  double waist_offset_m = 0;             // trousers, skirts: how far above the natural waist they are worn
   double ease_m = 0.06;                  // garment girth minus body girth, at chest (tops) or hip (bottoms)
   double fullness = 0.06;                // cloth beyond the smooth shape, part of its width: it falls in folds
   double flare = 0.3;                    // skirts, dresses: how much wider the hem is cut than it hangs

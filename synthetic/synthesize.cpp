@@ -72,13 +72,13 @@ std::vector<RaySurface> joined(std::vector<RaySurface> first, const std::vector<
   return first;
 }
 
-// Trousers before shirts: what is worn beneath comes first.
+// Trousers before shirts, unless the shirt is tucked in: what is worn beneath comes first.
 std::vector<const GarmentSpec*> inner_first(const Scene& scene) {
   std::vector<const GarmentSpec*> order;
   for (const auto& spec : scene.garments) order.push_back(&spec);
-  std::stable_sort(order.begin(), order.end(), [](const GarmentSpec* a, const GarmentSpec* b) {
-    return a->slot == "bottom" && b->slot != "bottom";
-  });
+  const auto layer = [](const GarmentSpec* spec) { return spec->slot == "bottom" ? 1 : spec->tucked ? 0 : 2; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const GarmentSpec* a, const GarmentSpec* b) { return layer(a) < layer(b); });
   return order;
 }
 

@@ -49,11 +49,14 @@ std::string bottom_kind(const std::vector<Vector3d>& points, const BodyLimbs& li
   }
   int spans = 0, parts = 0;
   for (Slab& slab : slabs) {
+    // A skirt falls in folds, too: a valley on one side says nothing where the other side spans the legs.
+    bool known = false, span = false;
     for (const int back : {0, 1}) {
       if (!slab.legs[back].known()) continue;
-      const bool span = slab.middle[back].known() && slab.middle[back].median() > slab.legs[back].median() - kValley_m;
-      ++(span ? spans : parts);
+      known = true;
+      span |= slab.middle[back].known() && slab.middle[back].median() > slab.legs[back].median() - kValley_m;
     }
+    if (known) ++(span ? spans : parts);
   }
   return spans > parts ? "skirt" : "trousers";
 }

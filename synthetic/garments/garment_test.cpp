@@ -162,6 +162,53 @@ const Outfit kOutfits[] = {
     {"sampled_man", sampled("man", 2), garment("trousers", 1.0), garment("shirt", 0.5)},
     {"stout_man", stout_man(), garment("trousers", 0.55), garment("shirt", 0.42)},
 };
+// A dress, a wedge-shaped neckline, a hem that rises to the front, a shirt tucked into trousers worn low.
+TEST(Garment, IsCutAsAsked) {
+  GarmentSpec dress = garment("dress", 0.3);
+  dress.length = 0.6;
+  dress.neck = "v";
+  dress.neck_depth_m = 0.15;
+  dress.hem_slant = 0.2;
+  const Body lady = make_body(sampled("woman", 4));
+  const Garment worn = make_garment(dress, lady, {}, 2);
+  expect_well_cut(worn, {"neck", "left_cuff", "right_cuff", "hem"});
+  expect_at_rest(worn, lady.mesh, {});
+  expect_readable(worn.textured);
+  const auto forward = [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); };
+  const auto [back, front] = std::minmax_element(worn.rims[3].points.begin(), worn.rims[3].points.end(), forward);
+  EXPECT_GT(front->y(), back->y() + 0.02);
+  dress.neck = "round";
+  const auto lowest_at = [](const TruthRim& neck, double x) {
+    double low = 9;
+    for (const auto& p : neck.points)
+      if (p.z() > -0.03 && std::abs(std::abs(p.x()) - x) < 0.012) low = std::min(low, p.y());
+    return low;
+  };
+  // Half way out a round neckline is hardly higher than in the middle, a wedge is.
+  const Garment round = make_garment(dress, lady, {}, 2);
+  const double wedge_rise = lowest_at(worn.rims[0], 0.05) - lowest_at(worn.rims[0], 0);
+  const double round_rise = lowest_at(round.rims[0], 0.05) - lowest_at(round.rims[0], 0);
+  EXPECT_GT(wedge_rise, round_rise + 0.015);
+
+  const Body man = make_body({});
+  GarmentSpec shirt = garment("shirt", 0.4), trousers = garment("trousers", 0.9);
+  shirt.tucked = true;
+  trousers.waist_offset_m = -0.03;
+  std::vector<Garment> layers{make_garment(shirt, man, {}, 2)};
+  layers.push_back(make_garment(trousers, man, layers, 2));
+  expect_well_cut(layers[0], {"neck", "left_cuff", "right_cuff", "hem"});
+  expect_well_cut(layers[1], {"waist", "left_ankle", "right_ankle"});
+  expect_at_rest(layers[0], man.mesh, {});
+  expect_at_rest(layers[1], man.mesh, layers[0].textured.mesh);
+  for (const auto& p : layers[1].rims[0].points) EXPECT_NEAR(p.y(), man.landmarks.waist - 0.045, 0.02);
+  double hem = 0;
+  for (const auto& p : layers[0].rims[3].points) hem = std::max(hem, p.y());
+  EXPECT_LT(hem, man.landmarks.waist - 0.06);
+
+  trousers.tucked = true;
+  EXPECT_THROW(make_garment(trousers, man, {}, 2), InputError);
+}
+
 INSTANTIATE_TEST_SUITE_P(Garments, Outfits, testing::ValuesIn(kOutfits),
                          [](const auto& info) { return std::string(info.param.name); });
 

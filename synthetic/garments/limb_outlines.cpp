@@ -80,13 +80,21 @@ Outline trunk_outline(const Body& body, const std::vector<Garment>& inner, doubl
       }
     }
     for (const Garment& garment : inner)
-      for (const SectionCurve& curve : plane_section(garment.textured.mesh, Vector3d(0, y, 0), Vector3d::UnitY()))
+      for (const SectionCurve& curve : plane_section(garment.textured.mesh, Vector3d(0, y, 0), Vector3d::UnitY())) {
+        double middle = 0;
+        for (const Vector3d& p : curve.points) middle += p.x() / static_cast<double>(curve.points.size());
+        if (middle > 0.8 * left || middle < 0.8 * right) continue;  // a sleeve
         for (const Vector3d& p : curve.points) {
           const Vector2d q = to_frame(frame, p);
           points.push_back(q + gap_m * q.normalized());
         }
+      }
     return points;
   };
+}
+
+Outline below_waistband(const Outline& outline, double waist_y) {
+  return [outline, waist_y](double y) { return outline(std::min(y, waist_y)); };
 }
 
 Outline leg_outline(const Body& body, double side) {

@@ -18,6 +18,10 @@ Tube::Frame leg_frame(const Body& body, double side);
 Tube::Frame arm_frame(const Body& body, double side);
 double arm_length(const Body& body, double side);  // shoulder to wrist
 
+// What a waistband at `waist_y` goes round: the outline, and above the waistband what there is at its height, so that
+// cloth that hangs over it does not count.
+Outline below_waistband(const Outline& outline, double waist_y);
+
 // Trunk (with both legs below the crotch) at a height; arms left out by cutting at the shoulder joints. `inner`
 // garments are gone round as well, at `gap_m`.
 Outline trunk_outline(const Body& body, const std::vector<Garment>& inner, double gap_m);

@@ -23,11 +23,11 @@ constexpr double kLayerGap = 0.0030;   // of cloth over cloth, m
 using ShapeMaker = GarmentShape (*)(const GarmentSpec&, const Body&, const std::vector<Garment>&, Seed);
 
 ShapeMaker maker_of(const std::string& kind) {
-  if (kind == "shirt") return shirt_shape;
+  if (kind == "shirt" || kind == "dress") return shirt_shape;
   if (kind == "trousers") return trousers_shape;
   if (kind == "skirt") return skirt_shape;
   throw InputError("garment.kind",
-                   "found \"" + kind + "\" without a mesh; expected \"shirt\", \"trousers\" or \"skirt\"");
+                   "found \"" + kind + "\" without a mesh; expected \"shirt\", \"dress\", \"trousers\" or \"skirt\"");
 }
 
 struct NamedLoop {
@@ -182,6 +182,10 @@ Garment draped(const GarmentSpec& spec, const GarmentShape& shape, const Mesh& c
 
 Garment sewn_garment(const GarmentSpec& asked, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   GarmentSpec spec = asked;
+  if (spec.collar != "none")
+    throw InputError("garment.collar", "found \"" + spec.collar + "\"; expected \"none\": others are not cut yet");
+  if (spec.tucked && spec.kind != "shirt")
+    throw InputError("garment.tucked", "found it on a " + spec.kind + "; expected it on a shirt");
   // Where wide cloth runs into itself (a sleeve into the hip), it is cut closer.
   for (const double part : {1.0, 0.6, 0.3, 0.0}) {
     spec.ease_m = part * asked.ease_m;

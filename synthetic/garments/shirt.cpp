@@ -4,6 +4,7 @@
 #include "scenes/random.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/garments/limb_outlines.h"
+#include "synthetic/garments/neckline.h"
 #include "synthetic/garments/underarm.h"
 
 namespace dressform {
@@ -12,6 +13,7 @@ namespace {
 constexpr double kBack = -0.02;       // of the torso's middle and of the side seams, z in m
 constexpr double kClearance = 0.006;  // of the cloth off the body, m
 constexpr double kRib = 0.03;         // width of the band at the neck, m
+constexpr double kBlouse = 0.25;      // how much longer a tucked shirt is cut just above the waist
 constexpr double kRibDraw = 0.10;     // by how much it is shorter than the rim that it is sewn to
 
 // Cloth stretched over the trunk and what is worn below.
@@ -22,13 +24,28 @@ ClothRows taut_torso(const Body& body, const std::vector<Garment>& inner, double
 
 ClothRows shirt_torso(const GarmentSpec& spec, const Body& body, const ClothRows& taut) {
   const BodyLandmarks& m = body.landmarks;
+  const bool dress = spec.kind == "dress";
   const ClothRows least = grown(taut, kClearance);
   // Cloth hangs from the chest and the shoulder blades (downwards is backwards along s) and rises freely to the neck.
-  const ClothRows hung = smoothed(span_hollows(taut, 4.0, 0.10), 0.012, 0.06);
+  const ClothRows hung = smoothed(span_hollows(taut, 4.0, dress ? 0.30 : 0.10), 0.012, 0.06);
   const int chest = hung.row_of(m.chest);
   const double asked = (tape_girth(body.mesh, m.chest) + spec.ease_m) / (1 + spec.fullness);
-  const double ease = std::max(0.0, asked - row_girth(hung, chest));
-  return no_smaller(grown(hung, ease / (2 * M_PI)), least, 0.006);
+  const double ease = std::max(0.0, asked - row_girth(hung, chest)) / (2 * M_PI);
+  ClothRows eased =
+      displaced(hung, [&](double s, double) { return ease + (dress ? 0.07 * std::max(0.0, m.hip - s) : 0.0); });
+  if (spec.tucked)  // drawn in by what is worn over it
+    for (int row = 0; row < eased.rows(); ++row) {
+      const double in = std::clamp((m.waist + 0.06 - eased.s(row)) / 0.06, 0.0, 1.0);
+      for (int i = 0; i < eased.angles; ++i) eased.at(row, i) += in * (least.at(row, i) - eased.at(row, i));
+    }
+  return no_smaller(eased, least, 0.006);
+}
+
+// Height at which the trunk's cloth ends.
+double hem_height(const GarmentSpec& spec, const BodyLandmarks& m) {
+  if (spec.kind == "dress") return m.waist - std::clamp(spec.length, 0.25, 1.0) * (m.waist - m.ankle);
+  if (spec.tucked) return m.waist - std::min(spec.hem_below_waist_m, 0.5 * (m.waist - m.crotch));
+  return m.waist - spec.hem_below_waist_m;
 }
 
 ClothRows taut_sleeve(const Body& body, double side, double cuff) {
@@ -39,7 +56,7 @@ ClothRows taut_sleeve(const Body& body, double side, double cuff) {
 ClothRows shirt_sleeve(const GarmentSpec& spec, const ClothRows& taut) {
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.10, 6.0), 0.012, 0.08);
-  const double ease = 0.004 + 0.9 * spec.ease_m / (2 * M_PI);
+  const double ease = 0.004 + 0.6 * spec.ease_m / (2 * M_PI);
   // On the shoulder the cloth lies close.
   const auto height = [&](double s, double) { return 0.005 + std::clamp(s / 0.12, 0.0, 1.0) * (ease - 0.005); };
   return no_smaller(displaced(hung, height), least, 0.005);
@@ -49,7 +66,7 @@ ClothRows shirt_sleeve(const GarmentSpec& spec, const ClothRows& taut) {
 
 GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   const BodyLandmarks& m = body.landmarks;
-  const double hem_y = m.waist - spec.hem_below_waist_m;
+  const double hem_y = hem_height(spec, m);
   const ClothRows trunk = taut_torso(body, inner, hem_y);
   const Tube torso = shirt_torso(spec, body, trunk).tube();
   const double cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, 1);
@@ -82,15 +99,7 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
     const double t = std::clamp((*gap.start_y() - p.y()) / 0.02, 0.0, 1.0);
     return by_cloth + t * (gap.nearer_to_arm(p) - by_cloth);
   };
-  // Round neck: half an ellipse seen from the front, deep there and shallow at the back.
-  const double size = m.stature / 1.75, middle_y = m.neck + 0.020, half_width = 0.104 * size;
-  const double front_depth = 0.100 * size, back_depth = 0.034 * size;
-  shape.cuts.push_back({"neck", [=](const Vector3d& p) {
-                          const double t = std::clamp((p.z() + 0.105) / 0.075, 0.0, 1.0);
-                          const double depth = back_depth + t * t * (3 - 2 * t) * (front_depth - back_depth);
-                          const double x = p.x() / half_width, y = std::min(p.y() - middle_y, 0.0) / depth;
-                          return 0.7 * depth * (1 - std::hypot(x, y));
-                        }});
+  shape.cuts.push_back({"neck", neckline(spec, m)});
   for (const double side : {1.0, -1.0}) {
     const Tube::Frame frame = arm_frame(body, side);
     const double end = side > 0 ? cuff : right_cuff;
@@ -101,20 +110,36 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   }
   const double slant = 0.02 * (2 * uniform(seed, stream_of("shirt hem"), 0) - 1);
   shape.cuts.push_back({"hem", [=](const Vector3d& p) {
-                          const double edge = hem_y + slant * p.x() - 0.05 * p.z();
+                          const double edge = hem_y + slant * p.x() + (spec.hem_slant - 0.05) * p.z();
                           return std::min(edge - p.y(), -sleeve_over_torso(p));
                         }});
 
-  // The trunk is wider from under the arms down, a sleeve from below the shoulder.
-  const auto wider = [=](double y) { return spec.fullness * std::clamp((m.armpit + 0.02 - y) / 0.10, 0.0, 1.0); };
+  // The trunk is wider from under the arms down, a dress most at its hem, a sleeve from below the shoulder.
+  const double flare = spec.kind == "dress" ? spec.flare : 0, hip = m.hip + 0.05;
+  const double loose_to = spec.tucked ? m.waist + 0.06 : -1;  // below, what is worn over it holds it smooth
+  const auto wider = [=](double y) {
+    if (y < loose_to) return 0.0;
+    return spec.fullness * std::clamp((m.armpit + 0.02 - y) / 0.10, 0.0, 1.0) +
+           flare * std::clamp((hip - y) / std::max(0.1, hip - hem_y), 0.0, 1.1);
+  };
+  // A tucked shirt is longer above the waist than the way it goes: it hangs over.
+  const auto longer = [=](double y) {
+    return spec.tucked ? kBlouse * std::max(0.0, 1 - std::abs(y - m.waist - 0.08) / 0.08) : 0.0;
+  };
+  if (spec.tucked)
+    shape.held = [=](const Vector3d& p) { return std::min(m.waist - 0.02 - p.y(), -sleeve_over_torso(p)); };
   // A rib draws the neckline in.
   const Level beyond_neck = shape.cuts.front().beyond;
   shape.fullness = [=](const Vector3d& p) -> Eigen::Matrix3d {
     const double rib = std::clamp(1 + beyond_neck(p) / kRib, 0.0, 1.0);
     if (rib > 0) return (1 - kRibDraw * rib) * Eigen::Matrix3d::Identity();
-    if (sleeve_over_torso(p) < 0) return wider_round(Vector3d::UnitY(), wider(p.y()));
+    if (sleeve_over_torso(p) < 0) {
+      Eigen::Matrix3d cloth = wider_round(Vector3d::UnitY(), wider(p.y()));
+      cloth(1, 1) += longer(p.y());
+      return cloth;
+    }
     const Tube& tube = p.x() > 0 ? left : right;
-    return wider_round(tube.frame().axis, spec.fullness * std::clamp((tube.polar(p)[0] - 0.06) / 0.08, 0.0, 1.0));
+    return wider_round(tube.frame().axis, 0.5 * spec.fullness * std::clamp((tube.polar(p)[0] - 0.06) / 0.08, 0.0, 1.0));
   };
   const ArcLength torso_arc(torso), left_arc(left), right_arc(right);
   const double armpit = m.armpit, top = m.neck + 0.05;

@@ -13,8 +13,9 @@ constexpr double kClearance = 0.005;
 // The smooth shape that the cloth is put on as: close at the waist, wider below the hip.
 ClothRows skirt_rows(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, double hem_y) {
   const BodyLandmarks& m = body.landmarks;
-  const ClothRows taut = taut_rows(torso_frame(), hem_y - 0.04, m.waist + 0.06, trunk_outline(body, inner, 0.002),
-                                   [](double) { return Vector2d(-0.01, 0); });
+  const Outline trunk = trunk_outline(body, inner, 0.002);
+  const ClothRows taut = taut_rows(torso_frame(), hem_y - 0.04, m.waist + 0.06 + std::max(0.0, spec.waist_offset_m),
+                                   trunk_outline(body, inner, 0.002), [](double) { return Vector2d(-0.01, 0); });
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.35, 0.0), 0.015, 0.06);
   const double asked = (tape_girth(body.mesh, m.hip) + spec.ease_m) / (1 + spec.fullness);
@@ -30,7 +31,7 @@ ClothRows skirt_rows(const GarmentSpec& spec, const Body& body, const std::vecto
 
 GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   const BodyLandmarks& m = body.landmarks;
-  const double waist_y = m.waist - 0.012;
+  const double waist_y = m.waist - 0.012 + spec.waist_offset_m;
   const double hem_y = waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - m.ankle);
   const Tube tube = skirt_rows(spec, body, inner, hem_y).tube();
   GarmentShape shape;
@@ -39,7 +40,8 @@ GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   shape.box = {Vector3d(-reach, tube.s_min() - 0.01, -reach - 0.02), Vector3d(reach, tube.s_max() + 0.01, reach)};
   shape.cuts.push_back({"waist", [=](const Vector3d& p) { return p.y() - (waist_y - 0.06 * p.z()); }});
   const double slant = 0.03 * (2 * uniform(seed, stream_of("skirt hem"), 0) - 1);
-  shape.cuts.push_back({"hem", [=](const Vector3d& p) { return hem_y + slant * p.x() - p.y(); }});
+  shape.cuts.push_back(
+      {"hem", [=](const Vector3d& p) { return hem_y + slant * p.x() + spec.hem_slant * p.z() - p.y(); }});
   // Nothing at the waistband, the fullness at the hip, the flare at the hem.
   const auto wider = [=](double y) {
     const double seat = std::clamp((waist_y - 0.03 - y) / (waist_y - 0.03 - m.hip), 0.0, 1.0);

@@ -12,8 +12,9 @@ constexpr double kClearance = 0.005;
 
 ClothRows trousers_seat(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner) {
   const BodyLandmarks& m = body.landmarks;
-  const ClothRows taut = taut_rows(torso_frame(), m.crotch - 0.012, m.waist + 0.06, trunk_outline(body, inner, 0.002),
-                                   [](double) { return Vector2d(-0.01, 0); });
+  const Outline trunk = trunk_outline(body, inner, 0.002);
+  const ClothRows taut = taut_rows(torso_frame(), m.crotch - 0.012, m.waist + 0.06 + std::max(0.0, spec.waist_offset_m),
+                                   trunk_outline(body, inner, 0.002), [](double) { return Vector2d(-0.01, 0); });
   const ClothRows least = grown(taut, kClearance);
   const ClothRows hung = smoothed(span_hollows(taut, 0.35, 0.12), 0.012, 0.06);
   const int hip = hung.row_of(m.hip);
@@ -61,7 +62,7 @@ ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, do
 
 GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   const BodyLandmarks& m = body.landmarks;
-  const double waist_y = m.waist - 0.015, ankle_y = std::max(m.ankle, 0.03);
+  const double waist_y = m.waist - 0.015 + spec.waist_offset_m, ankle_y = std::max(m.ankle, 0.03);
   // The shortest legs are 7 cm long: above that they are still one with the seat.
   const double hem_y = std::min(waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y), m.crotch - 0.07);
   const Tube seat = trousers_seat(spec, body, inner).tube();
@@ -85,7 +86,7 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
     const double tilt = 0.06 + 0.04 * uniform(seed, stream_of("trouser hem"), side > 0 ? 0 : 1);
     const double z = leg_frame(body, side).origin.z();
     shape.cuts.push_back({side > 0 ? "left_ankle" : "right_ankle", [=](const Vector3d& p) {
-                            return p.x() * side < 0 ? -1.0 : hem_y + tilt * (p.z() - z) - p.y();
+                            return p.x() * side < 0 ? -1.0 : hem_y + (tilt + spec.hem_slant) * (p.z() - z) - p.y();
                           }});
   }
 

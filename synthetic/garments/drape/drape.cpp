@@ -169,7 +169,7 @@ class Drape {
       double sum = 0;
       for (int k = 0; k < 12; ++k) {
         const auto n = normal4(seed, stream, k);
-        sum += std::sin(45 * Vector3d(n[0], 0.4 * n[1], n[2]).dot(x_[i]) + 7 * n[3]) / 3.5;
+        sum += std::sin(75 * Vector3d(n[0], 0.4 * n[1], n[2]).dot(x_[i]) + 7 * n[3]) / 3.5;
       }
       const double room = std::min(1.0, wearer_.clearance_m[i] / 0.004);
       x_[i] += room * params_.ruffle_m * sum * normals[i];
