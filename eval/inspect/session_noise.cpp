@@ -124,8 +124,8 @@ void add_distance_chart(InspectionSection& section, const std::string& model, co
   Chart chart{
       "noise_distance_" + model,
       "Noise by distance, surfaces within 30 degrees of facing",
-      "Median over windows of 15 x 15 pixels, by half metres. Unjudged: albedo and roughness of the scene are in "
-      "it.",
+      "Median over windows of 15 x 15 pixels, by half metres. Unjudged: the scene's albedo and roughness are in "
+      "it, and noise that many neighbours share goes into the windows' planes.",
       {"distance [m]", 0, 5},
       {},
       {},
