@@ -20,7 +20,7 @@ double from_emitter_m(double x, double y, double z) { return std::hypot(x - kEmi
 double stretch_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z) / z; }
 
 struct CellFit {
-  double n = 0;
+  double n = 0, lost = 0;  // pixels of the surface; pixels without depth beside them
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d vector = Eigen::Vector3d::Zero(), rays = Eigen::Vector3d::Zero();
   double inverse = 0, ir = 0;
@@ -37,6 +37,20 @@ float median_depth(const cv::Mat& depth_mm, const cv::Rect& cell, std::vector<fl
   return buffer[buffer.size() / 2];
 }
 
+bool of_surface(int depth_mm, float median) {
+  return depth_mm != 0 && std::abs(depth_mm - median) <= kOneSurface * median;
+}
+
+// Whether a pixel without depth has a neighbour of the surface: the driver drops the pixels of contours, and sides that
+// are seen at grazing incidence with them, but the light they send goes on.
+bool beside(const cv::Mat& depth_mm, int u, int v, float median) {
+  const auto at = [&](int x, int y) {
+    const bool inside = x >= 0 && y >= 0 && x < depth_mm.cols && y < depth_mm.rows;
+    return inside && of_surface(depth_mm.at<std::uint16_t>(y, x), median);
+  };
+  return at(u - 1, v) || at(u + 1, v) || at(u, v - 1) || at(u, v + 1);
+}
+
 // A plane is linear in inverse depth: 1/z = n'.(ray).
 CellFit sums_of(const cv::Mat& depth_mm, const cv::Mat& ir, const DepthOptics& optics, const cv::Rect& cell,
                 float median) {
@@ -44,7 +58,8 @@ CellFit sums_of(const cv::Mat& depth_mm, const cv::Mat& ir, const DepthOptics& o
   for (int v = cell.y; v < cell.y + cell.height; ++v)
     for (int u = cell.x; u < cell.x + cell.width; ++u) {
       const auto d = depth_mm.at<std::uint16_t>(v, u);
-      if (d == 0 || std::abs(d - median) > kOneSurface * median) continue;
+      if (d == 0) fit.lost += beside(depth_mm, u, v, median);
+      if (!of_surface(d, median)) continue;
       const auto& ray = optics.rays.at<cv::Vec2d>(v, u);
       const Eigen::Vector3d direction(ray[0], ray[1], 1);
       const double inverse = 1 / (1e-3 * d - optics.calibration.depth_offset_m);
@@ -77,7 +92,8 @@ void fill_cell(const CellFit& fit, const Camera& camera, int index, SurfaceCells
   cells.normal_y[index] = static_cast<float>(normal.y());
   cells.normal_z[index] = static_cast<float>(normal.z());
   const double stretch = stretch_of(point.x(), point.y(), point.z());
-  cells.solid_angle[index] = static_cast<float>(fit.n / (camera.fx * camera.fy * stretch * stretch * stretch));
+  cells.solid_angle[index] =
+      static_cast<float>((fit.n + fit.lost) / (camera.fx * camera.fy * stretch * stretch * stretch));
   if (!cells.ir_counts.empty()) cells.ir_counts[index] = static_cast<float>(fit.ir / fit.n / 16);
 }
 
