@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kEmitter = 0.045;                // right of the lens, metres
 constexpr float kOneSurface = 0.05f;              // largest step in depth within one surface, in parts of the depth
+constexpr float kOwnNormal = 5;                   // weight of a cell's own normal among its neighbours' of 1
 constexpr double kLeastCovered = 0.25;            // of a cell's pixels
 constexpr double kLargestError = 0.06;            // metres: what comes out larger is a wrong guess at the geometry
 constexpr double kMetresPerTurn = 2.0833333 / 3;  // the driver's mean over the three frequencies' cycles
@@ -97,7 +98,8 @@ void fill_cell(const CellFit& fit, const Camera& camera, int index, SurfaceCells
   if (!cells.ir_counts.empty()) cells.ir_counts[index] = static_cast<float>(fit.ir / fit.n / 16);
 }
 
-// Mean normals of every cell and its eight neighbours where they are of one surface.
+// Mean normals of every cell and its eight neighbours where they are of one surface. The cell's own counts most: more
+// smoothing turns the sides of limbs towards the sensor, and it is the sides that receive what bounced.
 void smooth_normals(SurfaceCells& cells) {
   const std::vector<float> nx = cells.normal_x, ny = cells.normal_y, nz = cells.normal_z;
   for (int y = 0; y < cells.rows; ++y)
@@ -109,7 +111,7 @@ void smooth_normals(SurfaceCells& cells) {
         for (int u = std::max(0, x - 1); u <= std::min(cells.columns - 1, x + 1); ++u) {
           const int other = v * cells.columns + u;
           if (cells.z[other] == 0 || std::abs(cells.z[other] - cells.z[index]) > kOneSurface * cells.z[index]) continue;
-          sum += Eigen::Vector3f(nx[other], ny[other], nz[other]);
+          sum += (other == index ? kOwnNormal : 1.0f) * Eigen::Vector3f(nx[other], ny[other], nz[other]);
         }
       sum.normalize();
       cells.normal_x[index] = sum.x(), cells.normal_y[index] = sum.y(), cells.normal_z[index] = sum.z();

@@ -11,7 +11,7 @@ namespace {
 
 struct OneBounceParams {
   double signal = 1300;
-  double least_evidence = 0.5, factor = 1.2;
+  double least_evidence = 0.4, factor = 1.2;
   int scan_frames = 30;
 };
 
