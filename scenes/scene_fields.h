@@ -24,7 +24,7 @@ void fields(V& v, BodySpec& body) {
 
 template <class V>
 void fields(V& v, PrintSpec& print) {
-  v("kind", print.kind, {}, "plain, stars, complex, stripes, denim, weave or another print that synthetic/ can paint");
+  v("kind", print.kind, {}, "plain, stars, characters, stripes, plaid, denim, weave, all_over, complex or noise");
   v("text", print.text, {}, "characters to print, for kinds that print text");
 }
 

@@ -263,7 +263,8 @@ TEST(Garment, OwnMeshIsPlacedAsGivenAndItsRimsNamed) {
 
 TEST(Print, HasTheAskedSizeAndColours) {
   PrintSpec spec;
-  for (const std::string kind : {"plain", "stars", "complex", "stripes", "plaid", "denim", "weave"}) {
+  for (const std::string kind :
+       {"plain", "stars", "complex", "stripes", "plaid", "denim", "weave", "characters", "all_over", "noise"}) {
     spec.kind = kind;
     spec.colors = {"#204060", "#ffffff"};
     const cv::Mat picture = paint_print(spec, 0.5, 0.4, 1000, 5);

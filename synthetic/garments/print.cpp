@@ -141,6 +141,58 @@ void paint_stripes(Canvas& canvas) {
     draw_text(canvas, {canvas.middle().x, canvas.middle().y - canvas.pixels(0.16)}, 0.06, canvas.color(1));
 }
 
+// Characters strewn over the cloth, upright within a quarter turn, in all print colours.
+void paint_characters(Canvas& canvas) {
+  const std::string letters = canvas.text.empty() ? std::string("ABCDEFGHKLMNPRSTXYZ2345678&?") : canvas.text;
+  const double pitch = canvas.pixels(0.075);
+  const cv::Point2d middle = canvas.middle();
+  const int across = static_cast<int>(middle.x / pitch) + 2, down = static_cast<int>(middle.y / pitch) + 2;
+  const int side = std::max(8, cvRound(canvas.pixels(0.07)));
+  std::uint64_t index = 0;
+  for (int j = -down; j <= down; ++j)
+    for (int i = -across; i <= across; ++i) {
+      const auto u = uniform4(canvas.seed, stream_of("characters"), index++);
+      const cv::Point2d at(middle.x + pitch * (i + 0.3 * (u[0] - 0.5)), middle.y + pitch * (j + 0.3 * (u[1] - 0.5)));
+      const char letter = letters[std::min(letters.size() - 1, static_cast<size_t>(u[2] * letters.size()))];
+      if (letter == ' ') continue;
+      // The letter as a mask, turned, through which its colour is laid on.
+      cv::Mat mask(side, side, CV_8U, cv::Scalar(0)), turned;
+      const double scale = canvas.pixels(0.040) / 21;
+      cv::putText(mask, std::string(1, letter),
+                  cv::Point(cvRound(side / 2.0 - 10 * scale), cvRound(side / 2.0 + 10 * scale)), kFont, scale,
+                  cv::Scalar(255), std::max(1, cvRound(3 * scale)), cv::LINE_AA);
+      cv::warpAffine(mask, turned, cv::getRotationMatrix2D(cv::Point2f(side / 2.f, side / 2.f), 90 * (u[3] - 0.5), 1),
+                     mask.size());
+      const cv::Rect whole(cvRound(at.x) - side / 2, cvRound(at.y) - side / 2, side, side);
+      const cv::Rect seen = whole & cv::Rect(0, 0, canvas.picture.cols, canvas.picture.rows);
+      if (seen.empty()) continue;
+      const size_t inks = std::max<size_t>(1, canvas.colors.size() - 1);
+      canvas.picture(seen).setTo(canvas.color(1 + index % inks), turned(seen - whole.tl()) > 127);
+    }
+}
+
+// A small repeat that covers the whole cloth: flowers of six petals and dots between them.
+void paint_all_over(Canvas& canvas) {
+  const double pitch = canvas.pixels(0.045), petal = canvas.pixels(0.0065);
+  const cv::Point2d middle = canvas.middle();
+  const int across = static_cast<int>(middle.x / pitch) + 2, down = static_cast<int>(middle.y / pitch) + 2;
+  const auto dot = [&](const cv::Point2d& at, double radius, const cv::Scalar& color) {
+    cv::circle(canvas.picture, fixed(at), std::max(1, cvRound(radius * (1 << kShift))), color, cv::FILLED, cv::LINE_AA,
+               kShift);
+  };
+  for (int j = -down; j <= down; ++j)
+    for (int i = -across; i <= across; ++i) {
+      const cv::Point2d at(middle.x + pitch * (i + (j % 2 ? 0.5 : 0.0)), middle.y + pitch * j);
+      const double turn = uniform(canvas.seed, stream_of("all over"), (j + down) * (2 * across + 1) + i + across);
+      for (int k = 0; k < 6; ++k) {
+        const double angle = CV_PI * (k + turn) / 3;
+        dot(at + 1.5 * petal * cv::Point2d(std::cos(angle), std::sin(angle)), petal, canvas.color(1));
+      }
+      dot(at, 0.8 * petal, canvas.color(2));
+      dot(at + cv::Point2d(0.5 * pitch, 0), 0.5 * petal, canvas.color(3));
+    }
+}
+
 // Crossing bands, half transparent.
 void paint_plaid(Canvas& canvas) {
   const cv::Mat ground = canvas.picture.clone();
@@ -202,16 +254,28 @@ void modulate(cv::Mat& picture, const cv::Mat& factor) {
   cv::Mat(values.mul(three)).convertTo(picture, CV_8U);
 }
 
+// Random patches in all colours, large ones over fine ones.
+void paint_noise(Canvas& canvas) {
+  const cv::Size size = canvas.picture.size();
+  for (size_t i = 1; i < canvas.colors.size(); ++i) {
+    const double grain = canvas.pixels(i % 2 ? 0.030 : 0.012);
+    const cv::Mat value = smooth_noise(size, grain, grain, canvas.seed + i, stream_of("noise patches")) +
+                          0.5 * smooth_noise(size, 0.3 * grain, 0.3 * grain, canvas.seed + i, stream_of("noise edges"));
+    canvas.picture.setTo(canvas.colors[i], value > 0.45);
+  }
+}
+
 struct Kind {
   const char* name;
   void (*paint)(Canvas&);
   double yarn_contrast, dye_contrast;
 };
 const Kind kKinds[] = {
-    {"plain", paint_text, 0.030, 0.015},      {"stars", paint_stars, 0.025, 0.012},
-    {"complex", paint_complex, 0.025, 0.012}, {"stripes", paint_stripes, 0.030, 0.015},
-    {"plaid", paint_plaid, 0.030, 0.012},     {"denim", paint_nothing, 0.10, 0.05},
-    {"weave", paint_nothing, 0.12, 0.02},
+    {"plain", paint_text, 0.030, 0.015},        {"stars", paint_stars, 0.025, 0.012},
+    {"complex", paint_complex, 0.025, 0.012},   {"stripes", paint_stripes, 0.030, 0.015},
+    {"plaid", paint_plaid, 0.030, 0.012},       {"denim", paint_nothing, 0.10, 0.05},
+    {"weave", paint_nothing, 0.12, 0.02},       {"characters", paint_characters, 0.025, 0.012},
+    {"all_over", paint_all_over, 0.025, 0.012}, {"noise", paint_noise, 0.03, 0.012},
 };
 
 }  // namespace

@@ -50,14 +50,18 @@ GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   };
   shape.fullness = [=](const Vector3d& p) { return wider_round(Vector3d::UnitY(), wider(p.y())); };
   shape.held = [=](const Vector3d& p) { return p.y() - (waist_y - 0.06 * p.z() - 0.03); };
+  // Two panels, each measured from its own middle, joined at the sides.
   const ArcLength arc(tube);
-  shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
-                            const Vector3d at = tube.polar(p);
-                            const double angle = angle_near(at[1], angle_near(tube.polar(near)[1], 0));
-                            return Vector2d((1 + wider(p.y())) * arc.at(p.y(), angle), waist_y + 0.03 - p.y());
-                          },
-                          true});
-  shape.piece_of = [](const Vector3d&) { return 0; };
+  for (const double middle : {0.0, M_PI})
+    shape.pieces.push_back({[=](const Vector3d& p, const Vector3d&) {
+                              const double angle = angle_near(tube.polar(p)[1], middle);
+                              const double across = arc.at(p.y(), angle) - arc.at(p.y(), middle);
+                              return Vector2d((1 + wider(p.y())) * across, waist_y + 0.03 - p.y());
+                            },
+                            middle == 0});
+  const Level forward = [tube](const Vector3d& p) { return std::cos(tube.polar(p)[1]) * tube.polar(p)[2]; };
+  shape.seams.push_back(forward);
+  shape.piece_of = [forward](const Vector3d& p) { return forward(p) > 0 ? 0 : 1; };
   return shape;
 }
 

@@ -64,7 +64,9 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
   const BodyLandmarks& m = body.landmarks;
   const double waist_y = m.waist - 0.015 + spec.waist_offset_m, ankle_y = std::max(m.ankle, 0.03);
   // The shortest legs are 7 cm long: above that they are still one with the seat.
-  const double hem_y = std::min(waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y), m.crotch - 0.07);
+  const double asked_y = waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - ankle_y);
+  // The cloth grows a little longer as it hangs.
+  const double hem_y = std::min(asked_y + 0.009 * (waist_y - asked_y), m.crotch - 0.07);
   const Tube seat = trousers_seat(spec, body, inner).tube();
   const Tube left = trouser_leg(spec, body, 1, hem_y).tube();
   const Tube right = trouser_leg(spec, body, -1, hem_y).tube();
