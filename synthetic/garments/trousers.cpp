@@ -46,8 +46,8 @@ ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, do
     return Vector2d(low + t * (high - low));
   });
   const ClothRows least = grown(taut, kClearance);
-  // Falls from the thigh almost straight.
-  const ClothRows hung = smoothed(span_hollows(taut, 0.30, 0.055), 0.015, 0.08);
+  // Falls from the thigh almost straight, a little narrower to the ankle.
+  const ClothRows hung = smoothed(span_hollows(taut, 0.30, 0.068), 0.015, 0.08);
   const double ease = 0.003 + 0.7 * spec.ease_m / (2 * M_PI);
   // Between the thighs there is no room for ease or folds.
   const auto height = [&](double s, double angle) {
@@ -92,7 +92,10 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
                           }});
   }
 
-  const auto wider = [=](double y) { return spec.fullness * std::clamp((waist_y - 0.03 - y) / 0.10, 0.0, 1.0); };
+  const auto wider = [=](double y) {
+    const double leg = 1 - 0.5 * std::clamp((m.knee + 0.10 - y) / 0.20, 0.0, 1.0);  // less below the knee
+    return leg * spec.fullness * std::clamp((waist_y - 0.03 - y) / 0.10, 0.0, 1.0);
+  };
   shape.fullness = [=](const Vector3d& p) { return wider_round(Vector3d::UnitY(), wider(p.y())); };
   shape.held = [=](const Vector3d& p) { return p.y() - (waist_y - waist_slant * p.z() - 0.03); };
   const ArcLength seat_arc(seat), left_arc(left), right_arc(right);
