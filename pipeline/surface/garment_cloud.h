@@ -19,7 +19,7 @@ struct GarmentCloudParams {
   double inside_body_m = 0.012;  // deepest point under the naked surface
   double outside_body_m = 0.15;  // farthest point off the naked surface, above the crotch
   double outside_legs_m = 0.40;  // the same below the crotch, where skirts stand off
-  double off_skin_m = 0.006;     // depth without colour counts as cloth this far off the naked legs
+  double off_skin_m = 0.003;     // depth without colour counts as cloth this far off the naked legs
   int neighbours = 20;           // of the statistical test
   double outlier_sigma = 3.0;    // mean neighbour distances beyond this are dropped
 };

@@ -17,7 +17,7 @@ namespace {
 struct LayerParams {
   GarmentCloudParams cloud;
   double step_m = 0.006;
-  double kernel_m = 0.006;
+  double kernel_m = 0.009;
   double reach_m = 0.018;
   double stiffness = 6.0;
   int sweeps = 12;
