@@ -105,7 +105,7 @@ struct GivenCalibrationSpec {
   }
 };
 
-// A named model and its parameters, e.g. sensor = "fankhauser" with [sensor.fankhauser] overrides.
+// A named model and its parameters, e.g. sensor = "kinect_v2" with [sensor.kinect_v2] overrides.
 struct VariantChoice {
   std::string variant;
   FieldValues values;
@@ -125,7 +125,7 @@ struct Scene {
   PriorSpec prior;
   std::optional<BoardsSpec> boards;
   GivenCalibrationSpec given_calibration;
-  VariantChoice sensor_model{"fankhauser", {}};
+  VariantChoice sensor_model{"kinect_v2", {}};
 };
 
 // Reads a scene file and the files it refers to (`rig = "rigs/thesis.toml"`). Throws InputError with file, line and

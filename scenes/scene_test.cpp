@@ -60,7 +60,7 @@ TEST(SceneLibrary, EverySceneParses) {
     EXPECT_DOUBLE_EQ(scene.body.chest_m, 1.01);
     EXPECT_GT(scene.user.waist_m, scene.body.waist_m + 0.1);
     const bool older = scene.rig[0].calibration.model == "kinect_v1";
-    EXPECT_EQ(scene.sensor_model.variant, older ? "kinect_v1" : "fankhauser");
+    EXPECT_EQ(scene.sensor_model.variant, older ? "kinect_v1" : "kinect_v2");
     ++scenes;
   }
   EXPECT_EQ(scenes, 5);  // the four groups, and the first one before four Kinects v1

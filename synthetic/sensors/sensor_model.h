@@ -16,7 +16,7 @@ struct SensorFrame {
 // The view gives first hits per pixel and a ray service for subsamples.
 struct SensorModelTag {
   static constexpr const char* name = "sensor";
-  static constexpr const char* default_variant = "fankhauser";
+  static constexpr const char* default_variant = "kinect_v2";
 };
 using SensorModel = Registry<SensorModelTag, SensorFrame(const IrView&)>;
 
