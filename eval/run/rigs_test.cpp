@@ -22,7 +22,7 @@ fs::path write_ring_scene(const fs::path& folder, int sensors) {
   out << "name = \"ring\"\nroom = \"" << library << "/rooms/laboratory.toml\"\nbody = \"" << library
       << "/bodies/mannequin.toml\"\nuser = \"" << library << "/bodies/customer.toml\"\nscan = \"" << library
       << "/scans/handheld.toml\"\ngarment = [\"" << library << "/garments/shirt1.toml\", \"" << library
-      << "/garments/trousers1.toml\"]\n[rig]\n";
+      << "/garments/trousers1.toml\"]\n[sensor]\nmodel = \"fankhauser\"\n[rig]\n";
   for (int i = 0; i < sensors; ++i)
     out << "[[rig.sensor]]\nname = \"s" << i << "\"\nbody_tracking = " << (i == 0 ? "true" : "false")
         << "\nazimuth_deg = " << 7 + 360.0 * i / sensors << "\ndistance_m = " << (i % 2 ? 2.0 : 2.2)

@@ -26,6 +26,7 @@ struct LayerParams {
   double end_m = 0.03;
   double edge_m = 0.008;
   double gap_m = 0.006;
+  double clearance_m = 0.0015;
   int fewest_points = 300;
 };
 template <class V>
@@ -41,6 +42,7 @@ void fields(V& v, LayerParams& p) {
   v("end_m", p.end_m, 0.0, 0.2, "m", "this close to a garment's end, space that views look through stays as it is");
   v("edge_m", p.edge_m, 0.003, 0.05, "m", "edges of the mesh shorter than this are collapsed");
   v("gap_m", p.gap_m, 0.0, 0.05, "m", "cloth beneath another garment stays this far inside it where it is hidden");
+  v("clearance_m", p.clearance_m, 0.0, 0.02, "m", "cloth stays this far off the naked body");
   v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");
 }
 
@@ -158,19 +160,20 @@ double beneath(const Outer& outer, const Vector3d& point, double body_distance, 
 // Negative inside the garment taken as a solid: within the layer and its ends, beneath what is worn over it, and not in
 // the slits that keep apart what goes round each limb.
 std::vector<float> solid(const Space& space, const CoveredBody& body, const std::vector<float>& ease,
-                         const std::optional<Outer>& outer, double gap_m) {
+                         const std::optional<Outer>& outer, const LayerParams& params) {
+  const auto least = static_cast<float>(params.clearance_m);
   const double slit_m = 0.75 * space.lattice.step_m;  // half its width: no lattice point is jumped over
   std::vector<float> field(space.lattice.count());
   tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
     for (int y = 0; y < space.lattice.size[1]; ++y)
       for (int x = 0; x < space.lattice.size[0]; ++x) {
         const std::size_t at = space.lattice.index(x, y, z);
-        double value = space.body_distance[at] - (space.domain[at] ? ease[at] : 0.0f);
+        double value = space.body_distance[at] - (space.domain[at] ? std::max(ease[at], least) : 0.0f);
         if (value < space.lattice.step_m) {
           const Vector3d point = space.lattice.point(x, y, z);
           value = std::max(value, body.beyond_ends(point));
           if (outer && value < space.lattice.step_m)
-            value = std::max(value, beneath(*outer, point, space.body_distance[at], gap_m));
+            value = std::max(value, beneath(*outer, point, space.body_distance[at], params.gap_m));
           if (space.domain[at] && value < space.lattice.step_m && space.body_distance[at] > 0)
             value = std::max(value, slit_m - body.from_crevice(point, slit_m));
         }
@@ -201,7 +204,7 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
   ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
 
   BallReport report;
-  std::vector<float> field = ball_field(space.lattice, solid(space, body, ease, outer, params.gap_m), report);
+  std::vector<float> field = ball_field(space.lattice, solid(space, body, ease, outer, params), report);
   if (field.empty()) return {};
   ClosedGarment garment;
   garment.mesh = tidied(lattice_surface(space.lattice, field), params.edge_m);
