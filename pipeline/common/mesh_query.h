@@ -55,7 +55,4 @@ class MeshQuery {
   std::unique_ptr<Device> device_;
 };
 
-// Closest point of triangle (a, b, c) to p, as barycentric weights (Ericson, Real-Time Collision Detection, 5.1.5).
-Vector3d closest_barycentric(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c);
-
 }  // namespace dressform

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scenes/triangle.h"
+
 namespace dressform {
 namespace {
 

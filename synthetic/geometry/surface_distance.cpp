@@ -8,34 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/triangle.h"
+
 namespace dressform {
-namespace {
-
-// Closest point of a triangle as weights of its corners (Ericson, Real-Time Collision Detection, 5.1.5).
-Vector3d closest_weights(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const Vector3d bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const Vector3d cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - t, t};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
-
-}  // namespace
 
 struct SurfaceDistance::Tree {
   Mesh mesh;
@@ -58,7 +33,7 @@ bool visit_triangle(RTCPointQueryFunctionArguments* args) {
   auto& query = *static_cast<Query*>(args->userPtr);
   const Vector3i& t = query.mesh->triangles[args->primID];
   const Vector3d &a = query.mesh->vertices[t[0]], &b = query.mesh->vertices[t[1]], &c = query.mesh->vertices[t[2]];
-  const Vector3d w = closest_weights(query.point, a, b, c);
+  const Vector3d w = closest_barycentric(query.point, a, b, c);
   const double distance = (w[0] * a + w[1] * b + w[2] * c - query.point).norm();
   // Ties go to the lower index, so that the order of the visits does not matter.
   const int index = static_cast<int>(args->primID);

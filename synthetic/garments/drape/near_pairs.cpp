@@ -4,34 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/triangle.h"
+
 namespace dressform {
 namespace {
 
 using Eigen::Vector2i;
-
-// Weights of a triangle's corners at its point closest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-Vector3d closest_in_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const Vector3d bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const Vector3d cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - t, t};
-  }
-  const double sum = va + vb + vc;
-  return sum > 0 ? Vector3d(va / sum, vb / sum, vc / sum) : Vector3d(1, 0, 0);
-}
 
 // Parameters of the closest points of two segments (Ericson, 5.1.9).
 Eigen::Vector2d closest_in_segments(const Vector3d& p, const Vector3d& p_end, const Vector3d& q,
@@ -178,7 +156,7 @@ class Finder {
 
   void vertex_pair(int v, const Vector3i& t) {
     if (t[0] == v || t[1] == v || t[2] == v) return;
-    const Vector3d w = closest_in_triangle(x_[v], x_[t[0]], x_[t[1]], x_[t[2]]);
+    const Vector3d w = closest_barycentric(x_[v], x_[t[0]], x_[t[1]], x_[t[2]]);
     keep({{v, t[0], t[1], t[2]}, {1, -w[0], -w[1], -w[2]}, {}, 0});
   }
 
