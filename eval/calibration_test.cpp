@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "eval/evaluate_parts.h"
 #include "eval/metrics/calibration_metrics.h"
@@ -95,6 +96,13 @@ void expect_calibrated(const Scene& scene, Seed seed) {
     EXPECT_LE(errors.depth_offset_mm, 1);
     EXPECT_LE(found.boards.at(sensor.name).ir_rms_px, 0.3);
     EXPECT_LE(found.boards.at(sensor.name).color_rms_px, 0.4);
+    std::printf(
+        "%s seed %d: ir f %.4f %% c %.2f px, color f %.4f %% c %.2f px, color_from_ir %.4f deg %.3f mm, "
+        "depth offset %.2f mm, rms %.3f and %.3f px\n",
+        sensor.name.c_str(), int(seed), errors.ir.focal_percent, errors.ir.principal_px, errors.color->focal_percent,
+        errors.color->principal_px, errors.color_from_ir_deg, errors.color_from_ir_mm, errors.depth_offset_mm,
+        found.boards.at(sensor.name).ir_rms_px, found.boards.at(sensor.name).color_rms_px);
+    std::fflush(stdout);
   }
 }
 
@@ -113,10 +121,14 @@ Scene scene_with_boards(int sensors, int views) {
 
 TEST(CalibrationFromBoards, OneSensorTwelveBoards) { expect_calibrated(scene_with_boards(1, 12), 1); }
 
-// Twenty minutes on two cores: eval_test --gtest_also_run_disabled_tests --gtest_filter=*FourSensorsFiveSeeds
-TEST(CalibrationFromBoards, DISABLED_FourSensorsFiveSeeds) {
-  for (Seed seed = 1; seed <= 5; ++seed) expect_calibrated(scene_with_boards(4, 25), seed);
+// Minutes for each seed: eval_test --gtest_also_run_disabled_tests --gtest_filter=*FourSensorsFiveSeeds*
+class CalibrationOverSeeds : public testing::TestWithParam<int> {};
+
+TEST_P(CalibrationOverSeeds, DISABLED_FourSensorsFiveSeeds) {
+  expect_calibrated(scene_with_boards(4, 25), Seed(GetParam()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, CalibrationOverSeeds, testing::Range(1, 6));
 
 }  // namespace
 }  // namespace dressform
