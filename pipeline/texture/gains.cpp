@@ -10,10 +10,6 @@ namespace {
 
 constexpr float kDarkest = 8, kBrightest = 247;  // levels outside say little of the ratio
 
-float linear_of(float level) {
-  const float c = level / 255.f;
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
 float level_of(float linear) {
   return 255.f * (linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f);
 }
@@ -36,7 +32,7 @@ void Overlaps::add(const std::vector<ColorView>& views, const VertexSamples& sam
         if (std::min(samples.facing(v, i), samples.facing(v, j)) < params.least_facing) continue;
         for (int c = 0; c < 3; ++c) {
           const float a = samples.low[i](v, c), b = samples.low[j](v, c);
-          if (usable(a) && usable(b)) ratios[c].push_back(std::log(linear_of(a)) - std::log(linear_of(b)));
+          if (usable(a) && usable(b)) ratios[c].push_back(std::log(linear_of_level(a)) - std::log(linear_of_level(b)));
         }
       }
     }
@@ -70,7 +66,12 @@ std::map<std::string, cv::Vec3f> Overlaps::gains(const GainParams& params) const
   return gains;
 }
 
-float with_gain(float level, float gain) { return gain == 1.f ? level : level_of(gain * linear_of(level)); }
+float linear_of_level(float level) {
+  const float c = level / 255.f;
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+float with_gain(float level, float gain) { return gain == 1.f ? level : level_of(gain * linear_of_level(level)); }
 
 void apply_gain(ColorView& view, const cv::Vec3f& gain) {
   if (gain == cv::Vec3f(1, 1, 1)) return;

@@ -25,6 +25,9 @@ class Overlaps {
   std::map<Pair, std::array<std::vector<float>, 3>> log_ratios_;
 };
 
+// Linear light (0-1) of a level (0-255, sRGB).
+float linear_of_level(float level);
+
 // The level (0-255, sRGB) of `level` times a gain in linear light; not clipped.
 float with_gain(float level, float gain);
 

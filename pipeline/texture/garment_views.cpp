@@ -59,7 +59,7 @@ TexturedGarments textured(const std::map<std::string, GarmentViews>& garments, c
     const Eigen::MatrixXf chosen = label_weights(*each.mesh, labels, each.views.size());
     const BlendWeights weights{spread_over_surface(graph, chosen, blend.coarse_m),
                                spread_over_surface(graph, chosen, blend.fine_m)};
-    const Painted painted = paint(*each.mesh, graph, each.views, each.samples, atlas, weights, params);
+    const Painted painted = paint(*each.mesh, graph, each.views, each.samples, atlas, weights, each.unlit, params);
     result.garments[slot] = {*each.mesh, texture_coordinates(atlas), painted.texture};
     result.unseen_part[slot] = painted.unseen_part;
   }

@@ -15,6 +15,7 @@ struct GarmentViews {
   const Mesh* mesh = nullptr;
   std::vector<ColorView> views;
   VertexSamples samples;
+  Eigen::MatrixXf unlit;  // vertices x 3: factors in linear light that take the light off; none when empty
 };
 
 std::map<std::string, GarmentViews> garment_views(const CaptureSession& session, const Calibration& calibration,

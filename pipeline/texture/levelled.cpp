@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "pipeline/texture/garment_views.h"
+#include "pipeline/texture/light.h"
 
 namespace dressform {
 namespace {
@@ -11,6 +12,7 @@ struct LevelledParams {
   LabelParams label;
   AtlasParams atlas;
   BlendParams blend{0.05, 0.004};
+  double unlit = 1;
 };
 
 template <class V>
@@ -42,6 +44,8 @@ void fields(V& v, LevelledParams& p) {
   v("fine_blend_m", p.blend.fine_m, 0.0, 0.1, "m",
     "half width of the strip along a seam in which fine detail is blended");
   v("coarse_blend_m", p.blend.coarse_m, 0.0, 0.5, "m", "the same for coarse colour");
+  v("unlit", p.unlit, 0.0, 1.0, "",
+    "part of the room's light, as it falls on the naked body, that is taken off the cloth");
 }
 
 // Best views by graph cut, exposure levelled between them, two bands blended across the seams.
@@ -50,6 +54,9 @@ TexturedGarments levelled(const CaptureSession& session, const Calibration& cali
                           const LevelledParams& params) {
   auto garments = garment_views(session, calibration, naked, registration, filled, opened, params.view);
   garments = levelled_exposure(std::move(garments), params.gain, params.view);
+  if (params.unlit > 0)
+    if (const auto light = light_on(naked, session.naked, calibration, registration))
+      for (auto& [slot, each] : garments) each.unlit = unlit_gains(*light, *each.mesh, params.unlit);
   const auto choose = [&](const GarmentViews& garment, const SurfaceGraph& graph) {
     return label_triangles(*garment.mesh, graph, garment.samples, params.label);
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/texture/gains.h"
 #include "pipeline/texture/raster.h"
 
 namespace dressform {
@@ -55,7 +56,7 @@ Eigen::MatrixXf plain_colors(const SurfaceGraph& graph, Eigen::MatrixXf colors, 
 }
 
 Eigen::MatrixXf filled_vertex_colors(const SurfaceGraph& graph, const VertexSamples& samples,
-                                     const BlendWeights& weights) {
+                                     const BlendWeights& weights, const Eigen::MatrixXf& unlit) {
   const Eigen::Index count = samples.trust.rows();
   Eigen::MatrixXf colors = Eigen::MatrixXf::Constant(count, 3, kUncolored[0]);
   std::vector<bool> known(count, false);
@@ -70,7 +71,8 @@ Eigen::MatrixXf filled_vertex_colors(const SurfaceGraph& graph, const VertexSamp
       best = std::max(best, valid);
     }
     known[v] = best > kSomeTrust;
-    if (known[v]) colors.row(v) = color / sum;
+    if (!known[v]) continue;
+    for (int c = 0; c < 3; ++c) colors(v, c) = unlit.rows() ? with_gain(color[c] / sum, unlit(v, c)) : color[c] / sum;
   }
   return fill_over_surface(graph, plain_colors(graph, std::move(colors), known), known);
 }
@@ -78,12 +80,14 @@ Eigen::MatrixXf filled_vertex_colors(const SurfaceGraph& graph, const VertexSamp
 class Painter {
  public:
   Painter(const Mesh& mesh, const std::vector<ColorView>& views, const VertexSamples& samples,
-          const BlendWeights& weights, const Eigen::MatrixXf& vertex_colors, const ViewParams& params)
+          const BlendWeights& weights, const Eigen::MatrixXf& vertex_colors, const Eigen::MatrixXf& unlit,
+          const ViewParams& params)
       : mesh_(mesh),
         views_(views),
         samples_(samples),
         weights_(weights),
         vertex_colors_(vertex_colors),
+        unlit_(unlit),
         params_(params) {}
 
   // Colour (BGR levels) of a point on the surface; `seen` is false where no view gives one.
@@ -117,7 +121,10 @@ class Painter {
     for (int c = 0; c < 3; ++c) along_surface[c] = mixed(vertex_colors_, t, b, c);
     if (!seen) return along_surface;
     const float part = std::min(1.f, best / kSomeTrust);
-    return (low * (1 / low_sum) + high * (1 / high_sum)) * part + along_surface * (1 - part);
+    cv::Vec3f color = low * (1 / low_sum) + high * (1 / high_sum);
+    if (unlit_.rows())
+      for (int c = 0; c < 3; ++c) color[c] = with_gain(color[c], mixed(unlit_, t, b, c));
+    return color * part + along_surface * (1 - part);
   }
 
  private:
@@ -129,6 +136,7 @@ class Painter {
   const VertexSamples& samples_;
   const BlendWeights& weights_;
   const Eigen::MatrixXf& vertex_colors_;
+  const Eigen::MatrixXf& unlit_;
   const ViewParams& params_;
 };
 
@@ -196,10 +204,11 @@ double unseen_part(const Mesh& mesh, const SurfaceGraph& graph, const VertexSamp
 }  // namespace
 
 Painted paint(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<ColorView>& views,
-              const VertexSamples& samples, const Atlas& atlas, const BlendWeights& weights, const ViewParams& params) {
+              const VertexSamples& samples, const Atlas& atlas, const BlendWeights& weights,
+              const Eigen::MatrixXf& unlit, const ViewParams& params) {
   const TexelGrid grid = rasterized(atlas);
-  const Eigen::MatrixXf vertex_colors = filled_vertex_colors(graph, samples, weights);
-  const Painter painter(mesh, views, samples, weights, vertex_colors, params);
+  const Eigen::MatrixXf vertex_colors = filled_vertex_colors(graph, samples, weights, unlit);
+  const Painter painter(mesh, views, samples, weights, vertex_colors, unlit, params);
   cv::Mat color(atlas.size, CV_32FC3, cv::Scalar::all(0)), seen(atlas.size, CV_8UC1, cv::Scalar(0));
   tbb::parallel_for(0, atlas.size.height, [&](int y) {
     for (int x = 0; x < atlas.size.width; ++x) {

@@ -15,8 +15,10 @@ struct Painted {
 
 // Colours every texel: the coarse band of the views blended widely and the fine band narrowly (Burt and Adelson, ACM
 // Trans. Graphics 1983; Baumberg, BMVC 2002). Where no view can see, the colour comes along the surface.
+// `unlit`: factors in linear light (vertices x 3, BGR) that take the light off; none when empty.
 Painted paint(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<ColorView>& views,
-              const VertexSamples& samples, const Atlas& atlas, const BlendWeights& weights, const ViewParams& params);
+              const VertexSamples& samples, const Atlas& atlas, const BlendWeights& weights,
+              const Eigen::MatrixXf& unlit, const ViewParams& params);
 
 // Texture coordinates (0 to 1) of the corners of an atlas.
 std::vector<std::array<Vector2f, 3>> texture_coordinates(const Atlas& atlas);
