@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "pipeline/multipath/bounce_pixels.h"
+
 namespace dressform {
 namespace {
 
@@ -16,8 +18,9 @@ void correct_shots(std::map<std::string, Shot>& shots, const SensorOptics& optic
   tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
     const auto& [shot, own] = each[i];
     const SurfaceCells cells = surface_cells(shot->depth_mm, shot->ir, *own);
-    const auto errors = bounce_errors_m(cells, albedo_of(cells, multipath.signal_counts));
-    shot->depth_mm = subtract_errors(shot->depth_mm, cells, errors, multipath.shots.factor);
+    const BouncedLight light = bounced_light(cells, albedo_of(cells, multipath.signal_counts));
+    shot->depth_mm =
+        without_bounce(shot->depth_mm, cells, light, {shot->ir, multipath.signal_counts}, *own, multipath.shots.factor);
   });
 }
 
@@ -54,8 +57,8 @@ DepthScan without_multipath(const DepthScan& scan, const SensorCalibration& cali
   const DepthOptics optics(calibration);
   tbb::parallel_for(std::size_t{0}, scan.depth_mm.size(), [&](std::size_t i) {
     const SurfaceCells cells = surface_cells(scan.depth_mm[i], {}, optics);
-    const auto errors = bounce_errors_m(cells, assumed_albedo(cells, multipath));
-    result.depth_mm[i] = subtract_errors(scan.depth_mm[i], cells, errors, strength.factor);
+    const BouncedLight light = bounced_light(cells, assumed_albedo(cells, multipath));
+    result.depth_mm[i] = without_bounce(scan.depth_mm[i], cells, light, {}, optics, strength.factor);
   });
   return result;
 }

@@ -9,10 +9,11 @@
 namespace dressform {
 namespace {
 
-constexpr double kEmitter = 0.045;                // right of the lens, metres
-constexpr float kOneSurface = 0.05f;              // largest step in depth within one surface, in parts of the depth
-constexpr float kOwnNormal = 5;                   // weight of a cell's own normal among its neighbours' of 1
-constexpr double kLeastCovered = 0.25;            // of a cell's pixels
+constexpr double kEmitter = 0.045;      // right of the lens, metres
+constexpr float kOneSurface = 0.05f;    // largest step in depth within one surface, in parts of the depth
+constexpr float kOwnNormal = 5;         // weight of a cell's own normal among its neighbours' of 1
+constexpr double kLeastCovered = 0.25;  // of a cell's pixels
+constexpr double kLeastCosine = 0.1;
 constexpr double kLargestError = 0.06;            // metres: what comes out larger is a wrong guess at the geometry
 constexpr double kMetresPerTurn = 2.0833333 / 3;  // the driver's mean over the three frequencies' cycles
 
@@ -118,17 +119,14 @@ void smooth_normals(SurfaceCells& cells) {
     }
 }
 
-// Cosine at which the emitter's light meets a cell, not below what makes its direct light too weak to divide by.
-double lit_cosine(const SurfaceCells& cells, int i, double distance_m) {
-  const double cosine =
-      -(cells.normal_x[i] * (cells.x[i] - kEmitter) + cells.normal_y[i] * cells.y[i] + cells.normal_z[i] * cells.z[i]) /
-      distance_m;
-  return std::max(0.1, cosine);
-}
-
 // What the emitter sends into a direction: the lens loses four powers of the cosine to the axis, lens and emitter
 // together three.
 double profile_of(double stretch) { return stretch; }
+
+double lit_cosine_of(const SurfaceCells& cells, int i) {
+  return lit_cosine(cells.x[i], cells.y[i], cells.z[i],
+                    Eigen::Vector3d(cells.normal_x[i], cells.normal_y[i], cells.normal_z[i]));
+}
 
 }  // namespace
 
@@ -154,26 +152,39 @@ SurfaceCells surface_cells(const cv::Mat& depth_mm, const cv::Mat& ir, const Dep
   return cells;
 }
 
+double lit_cosine(double x, double y, double z, const Eigen::Vector3d& normal) {
+  return -normal.dot(Eigen::Vector3d(x - kEmitter, y, z)) / from_emitter_m(x, y, z);
+}
+
+double direct_light(double x, double y, double z, double cosine) {
+  const double way = from_emitter_m(x, y, z);
+  return profile_of(stretch_of(x, y, z)) * std::max(kLeastCosine, cosine) / (way * way);
+}
+
+double light_per_count(double x, double y, double z, double signal_counts) {
+  return std::pow(stretch_of(x, y, z), 4) / signal_counts;
+}
+
 std::vector<float> albedo_of(const SurfaceCells& cells, double signal_counts) {
   std::vector<float> albedo(cells.count(), 0.0f);
   for (int i = 0; i < cells.count(); ++i) {
     if (cells.z[i] == 0) continue;
-    const double distance = from_emitter_m(cells.x[i], cells.y[i], cells.z[i]);
-    const double stretch = stretch_of(cells.x[i], cells.y[i], cells.z[i]);
-    const double white = signal_counts * profile_of(stretch) * std::pow(stretch, -4) * lit_cosine(cells, i, distance) /
-                         (distance * distance);
-    albedo[i] = static_cast<float>(std::clamp(cells.ir_counts[i] / white, 0.0, 1.0));
+    const double x = cells.x[i], y = cells.y[i], z = cells.z[i];
+    albedo[i] = static_cast<float>(std::clamp(
+        cells.ir_counts[i] * light_per_count(x, y, z, signal_counts) / direct_light(x, y, z, lit_cosine_of(cells, i)),
+        0.0, 1.0));
   }
   return albedo;
 }
 
-std::vector<float> bounce_errors_m(const SurfaceCells& cells, const std::vector<float>& albedo) {
+BouncedLight bounced_light(const SurfaceCells& cells, const std::vector<float>& albedo) {
   const int count = cells.count();
-  std::vector<float> way(count, 0.0f), sums(2 * static_cast<std::size_t>(bounce::frequencies) * count, 0.0f);
+  BouncedLight result{count, std::vector<float>(static_cast<std::size_t>(BouncedLight::terms) * count, 0.0f)};
+  std::vector<float> way(count, 0.0f);
   float *cosine[bounce::frequencies], *sine[bounce::frequencies];
   for (int f = 0; f < bounce::frequencies; ++f) {
-    cosine[f] = &sums[static_cast<std::size_t>(2 * f) * count];
-    sine[f] = &sums[static_cast<std::size_t>(2 * f + 1) * count];
+    cosine[f] = &result.sums[static_cast<std::size_t>(2 * f) * count];
+    sine[f] = &result.sums[static_cast<std::size_t>(2 * f + 1) * count];
   }
   for (int i = 0; i < count; ++i) way[i] = static_cast<float>(from_emitter_m(cells.x[i], cells.y[i], cells.z[i]));
   const bounce::Receivers receivers{cells.x.data(),        cells.y.data(),        cells.z.data(), cells.normal_x.data(),
@@ -187,51 +198,27 @@ std::vector<float> bounce_errors_m(const SurfaceCells& cells, const std::vector<
                         way[i], static_cast<float>(light), static_cast<float>(cells.solid_angle[i] * across * across)},
                        receivers, cosine, sine);
   }
-  std::vector<float> errors(count, 0.0f);
-  for (int i = 0; i < count; ++i) {
+  return result;
+}
+
+double bounce_error_m(double direct, const float (&bounced)[BouncedLight::terms], double stretch) {
+  double turns = 0;
+  for (int f = 0; f < bounce::frequencies; ++f)
+    turns += std::atan2(static_cast<double>(bounced[2 * f + 1]), direct + bounced[2 * f]) / (2 * M_PI);
+  return std::clamp(kMetresPerTurn * turns / stretch, -kLargestError, kLargestError);
+}
+
+std::vector<float> bounce_errors_m(const SurfaceCells& cells, const BouncedLight& light) {
+  std::vector<float> errors(cells.count(), 0.0f);
+  for (int i = 0; i < cells.count(); ++i) {
     if (cells.z[i] == 0) continue;
-    const double stretch = stretch_of(cells.x[i], cells.y[i], cells.z[i]);
-    const double direct = profile_of(stretch) * lit_cosine(cells, i, way[i]) / (way[i] * way[i]);
-    double turns = 0;
-    for (int f = 0; f < bounce::frequencies; ++f) turns += std::atan2(sine[f][i], direct + cosine[f][i]) / (2 * M_PI);
-    errors[i] = static_cast<float>(std::clamp(kMetresPerTurn * turns / stretch, -kLargestError, kLargestError));
+    float bounced[BouncedLight::terms];
+    for (int t = 0; t < BouncedLight::terms; ++t) bounced[t] = light.term(t)[i];
+    errors[i] =
+        static_cast<float>(bounce_error_m(direct_light(cells.x[i], cells.y[i], cells.z[i], lit_cosine_of(cells, i)),
+                                          bounced, stretch_of(cells.x[i], cells.y[i], cells.z[i])));
   }
   return errors;
-}
-
-namespace {
-
-// Error at a pixel from the four cells about it that are of its surface; 0 where none is.
-float error_at(const SurfaceCells& cells, const std::vector<float>& errors_m, int u, int v, float z) {
-  const float x = (u + 0.5f) / cells.edge_px - 0.5f, y = (v + 0.5f) / cells.edge_px - 0.5f;
-  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
-  float sum = 0, weights = 0;
-  for (int k = 0; k < 4; ++k) {
-    const int column = left + k % 2, row = top + k / 2;
-    if (column < 0 || row < 0 || column >= cells.columns || row >= cells.rows) continue;
-    const int i = row * cells.columns + column;
-    if (cells.z[i] == 0 || std::abs(cells.z[i] - z) > kOneSurface * z) continue;
-    const float weight = (1 - std::abs(x - column)) * (1 - std::abs(y - row)) + 1e-3f;
-    sum += weight * errors_m[i];
-    weights += weight;
-  }
-  return weights > 0 ? sum / weights : 0;
-}
-
-}  // namespace
-
-cv::Mat subtract_errors(const cv::Mat& depth_mm, const SurfaceCells& cells, const std::vector<float>& errors_m,
-                        double factor) {
-  cv::Mat result = depth_mm.clone();
-  const auto millimetres = static_cast<float>(1e3 * factor);
-  for (int v = 0; v < result.rows; ++v)
-    for (int u = 0; u < result.cols; ++u) {
-      auto& d = result.at<std::uint16_t>(v, u);
-      if (d == 0) continue;
-      const float error = millimetres * error_at(cells, errors_m, u, v, 1e-3f * d);
-      d = static_cast<std::uint16_t>(std::max(1.0f, std::round(d - error)));
-    }
-  return result;
 }
 
 }  // namespace dressform

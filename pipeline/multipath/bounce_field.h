@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -29,13 +30,30 @@ SurfaceCells surface_cells(const cv::Mat& depth_mm, const cv::Mat& ir, const Dep
 // Albedo in the infrared, 0 to 1, from the amplitude that came back; 0 where there is no surface.
 std::vector<float> albedo_of(const SurfaceCells& cells, double signal_counts);
 
-// By how much depth comes out too large in every cell, metres along the optical axis, when every cell lights every
-// other with its albedo: one bounce between matt surfaces, without a look at what stands between; decoded as the
-// Kinect v2's driver does. Fuchs, ICPR 2010; Jimenez et al., Image and Vision Computing 2014.
-std::vector<float> bounce_errors_m(const SurfaceCells& cells, const std::vector<float>& albedo);
+// Light that came by a detour, in every cell: sums of phasors, relative to the cell's own direct path, for a surface
+// that would send all of it back.
+struct BouncedLight {
+  static constexpr int terms = 6;  // cosine and sine at 80, 16 and 120 MHz
+  int count = 0;
+  std::vector<float> sums;  // terms x count
+  const float* term(int t) const { return &sums[static_cast<std::size_t>(t) * count]; }
+};
 
-// The image less factor x error, interpolated between cells of one surface.
-cv::Mat subtract_errors(const cv::Mat& depth_mm, const SurfaceCells& cells, const std::vector<float>& errors_m,
-                        double factor);
+// Every cell lights every other with its albedo: one bounce between matt surfaces, without a look at what stands
+// between. Fuchs, ICPR 2010; Jimenez et al., Image and Vision Computing 2014.
+BouncedLight bounced_light(const SurfaceCells& cells, const std::vector<float>& albedo);
+
+// What the emitter sends straight to a surface and the lens takes from it, in the units of BouncedLight: at a place
+// (metres, sensor frame) whose normal is `cosine` off the way to the emitter. Not below what is too weak to divide by.
+double direct_light(double x, double y, double z, double cosine);
+double lit_cosine(double x, double y, double z, const Eigen::Vector3d& normal);
+// Amplitude, in the units of BouncedLight, of an infrared value of 1 count on a white surface.
+double light_per_count(double x, double y, double z, double signal_counts);
+
+// By how much depth comes out too large, metres along the optical axis, where `direct` and the bounced phasors arrive;
+// decoded as the Kinect v2's driver does.
+double bounce_error_m(double direct, const float (&bounced)[BouncedLight::terms], double stretch);
+// The same in every cell.
+std::vector<float> bounce_errors_m(const SurfaceCells& cells, const BouncedLight& light);
 
 }  // namespace dressform

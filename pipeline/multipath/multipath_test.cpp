@@ -8,6 +8,7 @@
 #include "pipeline/common/test_scene.h"
 #include "pipeline/multipath/apply.h"
 #include "pipeline/multipath/bounce_kernel.h"
+#include "pipeline/multipath/bounce_pixels.h"
 #include "pipeline/multipath/floor_evidence.h"
 
 namespace dressform {
@@ -45,7 +46,8 @@ std::vector<float> even(const SurfaceCells& cells, double albedo) {
   return result;
 }
 
-std::vector<float> errors_of(const SurfaceCells& cells) { return bounce_errors_m(cells, even(cells, kAlbedo)); }
+BouncedLight light_of(const SurfaceCells& cells) { return bounced_light(cells, even(cells, kAlbedo)); }
+std::vector<float> errors_of(const SurfaceCells& cells) { return bounce_errors_m(cells, light_of(cells)); }
 
 TEST(Multipath, OneSourceAndOneReceiverAreThePhasorsOfTheBooks) {
   const bounce::Source source{0.3f, 0.9f, 2.2f, 0, -1, 0, 2.4f, 0.01f, 0.0025f};
@@ -131,6 +133,84 @@ TEST(Multipath, AlbedoComesBackFromTheAmplitude) {
   for (int i = 0; i < cells.count(); ++i) EXPECT_NEAR(albedo[i], 0.37, 0.01) << i;
 }
 
+// The same light, 30 degrees late at every frequency, everywhere.
+BouncedLight even_light(const SurfaceCells& cells, double strength) {
+  BouncedLight light{cells.count(), std::vector<float>(BouncedLight::terms * static_cast<std::size_t>(cells.count()))};
+  for (int t = 0; t < BouncedLight::terms; ++t)
+    std::fill_n(light.sums.begin() + static_cast<std::ptrdiff_t>(t) * cells.count(), cells.count(),
+                static_cast<float>(strength * (t % 2 ? 0.5 : std::sqrt(0.75))));
+  return light;
+}
+
+// An upright limb, 2 m away, and what comes back from it.
+struct Limb {
+  static constexpr double radius = 0.08, distance = 2;
+  cv::Mat depth, ir;
+  static constexpr int row = 212;
+  std::vector<double> cosine;  // to the emitter, in that row
+  Limb(const DepthOptics& optics, const BouncedLight& light)
+      : depth(424, 512, CV_16U, cv::Scalar(0)), ir(424, 512, CV_16U, cv::Scalar(0)), cosine(512, 0) {
+    for (int u = 0; u < depth.cols; ++u)
+      for (int v = 0; v < depth.rows; ++v) {
+        const auto& ray = optics.rays.at<cv::Vec2d>(v, u);
+        // |ray x z - centre| = radius in the plane of x and z
+        const double a = 1 + ray[0] * ray[0], half = distance,
+                     under = half * half - a * (half * half - radius * radius);
+        if (under <= 0) continue;
+        const double z = (half - std::sqrt(under)) / a, x = ray[0] * z, y = ray[1] * z;
+        const Eigen::Vector3d normal = Eigen::Vector3d(x, 0, z - distance) / radius;
+        const double lit = lit_cosine(x, y, z, normal);
+        if (v == row) cosine[u] = lit;
+        if (lit < 0.12) continue;
+        depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::lround(1000 * z));
+        const double bounced = (light.term(0)[0] + light.term(2)[0] + light.term(4)[0]) / 3;
+        ir.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(
+            std::lround(16 * kAlbedo * (direct_light(x, y, z, lit) + bounced) / light_per_count(x, y, z, kSignal)));
+      }
+  }
+};
+
+TEST(Multipath, SidesOfALimbAreBentAsTheirOwnLightFades) {
+  const DepthOptics optics(plain_kinect());
+  const double front = direct_light(0, 0, 2 - Limb::radius, 1);
+  const BouncedLight light =
+      even_light(surface_cells(cv::Mat(424, 512, CV_16U, cv::Scalar(0)), {}, optics), 0.03 * front);
+  const Limb limb(optics, light);
+  const SurfaceCells cells = surface_cells(limb.depth, limb.ir, optics);
+  const cv::Mat seen = without_bounce(limb.depth, cells, light, {limb.ir, kSignal}, optics, 10);
+  const cv::Mat blind = without_bounce(limb.depth, cells, light, {}, optics, 10);
+  const int v = Limb::row;
+  double least = 1;
+  for (int u = 0; u < 512; ++u) {
+    if (limb.depth.at<std::uint16_t>(v, u) == 0) continue;
+    float bounced[BouncedLight::terms];
+    for (int t = 0; t < BouncedLight::terms; ++t) bounced[t] = light.term(t)[0];
+    const auto& ray = optics.rays.at<cv::Vec2d>(v, u);
+    const double z = 1e-3 * limb.depth.at<std::uint16_t>(v, u);
+    const double expected = 1e4 * bounce_error_m(direct_light(ray[0] * z, ray[1] * z, z, limb.cosine[u]), bounced,
+                                                 std::hypot(ray[0], ray[1], 1));
+    const auto taken = [&](const cv::Mat& image) { return 1e3 * z - image.at<std::uint16_t>(v, u); };
+    EXPECT_NEAR(taken(seen), expected, 0.12 * expected + 1) << u << " " << limb.cosine[u];
+    EXPECT_NEAR(taken(blind), expected, (limb.cosine[u] > 0.5 ? 0.15 : 0.4) * expected + 1)
+        << u << " " << limb.cosine[u];
+    least = std::min(least, limb.cosine[u]);
+  }
+  EXPECT_LT(least, 0.4);
+}
+
+TEST(Multipath, ADarkPrintIsNotTakenForASlope) {
+  const DepthOptics optics(plain_kinect());
+  const cv::Mat wall = image_of(optics, [](double, double, int, int) { return 2.0; });
+  cv::Mat ir(wall.size(), CV_16U, cv::Scalar(2400)), printed = ir.clone();
+  printed(cv::Rect(250, 200, 4, 12)).setTo(800);
+  const SurfaceCells cells = surface_cells(wall, ir, optics), dark = surface_cells(wall, printed, optics);
+  const BouncedLight light = even_light(cells, 0.03 * direct_light(0, 0, 2, 1));
+  const cv::Mat plain = without_bounce(wall, cells, light, {ir, kSignal}, optics, 10);
+  const cv::Mat result = without_bounce(wall, dark, light, {printed, kSignal}, optics, 10);
+  EXPECT_GT(2000 - plain.at<std::uint16_t>(206, 252), 40);
+  EXPECT_NEAR(result.at<std::uint16_t>(206, 252), plain.at<std::uint16_t>(206, 252), 3);
+}
+
 Isometry3d stand(int k) {
   const double angle = M_PI / 2 * k + 0.1;
   return looking_at({2.1 * std::sin(angle), 1.25, 2.1 * std::cos(angle)}, {0, 1.1, 0});
@@ -140,7 +220,7 @@ Isometry3d stand(int k) {
 cv::Mat bent_image(const DepthOptics& optics, const Isometry3d& pose, double strength, double noise, Seed seed) {
   const cv::Mat exact = depth_image(standing_figure(), optics.calibration, optics.rays, pose, noise, seed);
   const SurfaceCells cells = surface_cells(exact, {}, optics);
-  return subtract_errors(exact, cells, errors_of(cells), -strength);
+  return without_bounce(exact, cells, light_of(cells), {}, optics, -strength);
 }
 
 TEST(Multipath, TheFloorTellsHowMuchThereIs) {
@@ -264,6 +344,38 @@ TEST(Multipath, OtherKindsOfSensorsAreNotLookedAt) {
   }
 }
 
+bool same_bytes(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && (a.empty() || cv::norm(a, b, cv::NORM_INF) == 0);
+}
+
+void expect_same_shots(const CaptureSession& a, const CaptureSession& b) {
+  for (const auto& [shots, others] : {std::pair{&a.naked, &b.naked}, {&a.dressed, &b.dressed}})
+    for (const auto& [name, shot] : *shots) {
+      EXPECT_TRUE(same_bytes(shot.depth_mm, others->at(name).depth_mm)) << name;
+      EXPECT_TRUE(same_bytes(shot.ir, others->at(name).ir)) << name;
+    }
+}
+
+TEST(Multipath, SessionsOfOtherSensorsKeepTheirBytes) {
+  for (const char* model : {"kinect_v1", "", "primesense"}) {
+    const Captured captured = capture(1, model);
+    Multipath certain = estimate(captured);
+    EXPECT_TRUE(certain.scans.empty()) << model;
+    certain.shots.factor = 1;  // as if another sensor of the rig had shown bounced light
+    expect_same_shots(captured.session, without_multipath(captured.session, captured.calibration, certain));
+  }
+}
+
+TEST(Multipath, ImagesThatShowNoneKeepTheirBytes) {
+  const Captured captured = capture(0);
+  const Multipath found = estimate(captured);
+  expect_same_shots(captured.session, without_multipath(captured.session, captured.calibration, found));
+  const DepthScan& scan = captured.session.scans.at("scan_naked");
+  const DepthScan same =
+      without_multipath(scan, captured.calibration.sensors.at("handheld"), found, found.scans.at("scan_naked"));
+  for (std::size_t i = 0; i < scan.depth_mm.size(); ++i) EXPECT_TRUE(same_bytes(scan.depth_mm[i], same.depth_mm[i]));
+}
+
 TEST(Multipath, TheVariantNoneTakesDepthAsItIs) {
   const Captured bent = capture(1);
   const Multipath found = EstimateMultipath::at("none").run(bent.session, bent.calibration, {}, 1);
@@ -279,9 +391,11 @@ TEST(Multipath, EmptySmallAndBlindImages) {
     for (const int value : {0, 1, 2000, 65535}) {
       const cv::Mat image(height, width, CV_16U, cv::Scalar(value));
       const SurfaceCells cells = surface_cells(image, image, optics);
-      const auto errors = bounce_errors_m(cells, albedo_of(cells, kSignal));
+      const BouncedLight light = bounced_light(cells, albedo_of(cells, kSignal));
+      const auto errors = bounce_errors_m(cells, light);
       for (const float error : errors) ASSERT_TRUE(std::isfinite(error));
-      EXPECT_EQ(subtract_errors(image, cells, errors, 1).size(), image.size());
+      for (const cv::Mat& ir : {image, cv::Mat()})
+        EXPECT_EQ(without_bounce(image, cells, light, {ir, kSignal}, optics, 1).size(), image.size());
       EXPECT_TRUE(std::isfinite(floor_evidence(cells, errors).factor));
     }
   }

@@ -11,7 +11,7 @@ namespace {
 
 struct OneBounceParams {
   double signal = 1300;
-  double least_evidence = 0.4, factor = 1.2;
+  double least_evidence = 0.4, factor = 1;
   int scan_frames = 30;
 };
 
@@ -20,8 +20,7 @@ void fields(V& v, OneBounceParams& p) {
   v("signal", p.signal, 1.0, 1e6, "counts", "infrared amplitude of a white surface that faces the sensor at 1 m");
   v("least_evidence", p.least_evidence, 0.0, 10.0, "",
     "of the predicted bend of floors (1: all of it), below which nothing is corrected");
-  v("factor", p.factor, 0.0, 3.0, "",
-    "on predicted errors: above 1, since grazing surfaces that came back without depth send light as well");
+  v("factor", p.factor, 0.0, 3.0, "", "on predicted errors");
   v("scan_frames", p.scan_frames, 3, 1000, "", "frames of a scan whose floor is looked at");
 }
 
@@ -38,7 +37,7 @@ struct ShotRef {
 ImageEvidence look_at_shot(const ShotRef& ref, double signal) {
   const SurfaceCells cells = surface_cells(ref.shot->depth_mm, ref.shot->ir, *ref.optics);
   const auto albedo = albedo_of(cells, signal);
-  ImageEvidence result{floor_evidence(cells, bounce_errors_m(cells, albedo)), {}, {}};
+  ImageEvidence result{floor_evidence(cells, bounce_errors_m(cells, bounced_light(cells, albedo))), {}, {}};
   constexpr float kNear = 3;  // metres: the body rather than walls
   for (int i = 0; i < cells.count(); ++i)
     if (cells.z[i] > 0 && cells.z[i] < kNear)
@@ -87,7 +86,7 @@ BounceStrength strength_of(const DepthScan& scan, const DepthOptics& optics, con
   tbb::parallel_for(0, looked_at, [&](int k) {
     const int frame = static_cast<int>(static_cast<long long>(k) * frames / looked_at);
     const SurfaceCells cells = surface_cells(scan.depth_mm[frame], {}, optics);
-    floors[k] = floor_evidence(cells, bounce_errors_m(cells, assumed_albedo(cells, known)));
+    floors[k] = floor_evidence(cells, bounce_errors_m(cells, bounced_light(cells, assumed_albedo(cells, known))));
   });
   return pooled(floors, params);
 }
