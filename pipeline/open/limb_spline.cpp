@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "pipeline/open/cut.h"
+#include "pipeline/open/depth_edges.h"
 #include "pipeline/open/mask_edges.h"
 #include "pipeline/open/open.h"
 #include "pipeline/open/openings.h"
@@ -14,6 +15,7 @@ namespace {
 struct LimbSplineParams {
   RimFitParams fit;
   MaskEdgeParams edges;
+  DepthEdgeParams depth;
   double least_coverage = 0.2;
   double shortest_edge_m = 0.003;
 };
@@ -22,9 +24,8 @@ void fields(V& v, LimbSplineParams& p) {
   v("knots", p.fit.knots, 12, 360, "", "knots of a rim's spline");
   v("smoothness", p.fit.smoothness, 1e-4, 100.0, "", "weight of a rim's second differences against the mask edges");
   v("flatness", p.fit.flatness, 0.0, 100.0, "", "weight of a rim's deviation from a flat cut through the limb");
-  v("first_smoothness", p.fit.first_smoothness, 1e-4, 1e6, "", "the same in the first round");
-  v("first_scale_m", p.fit.first_scale_m, 0.005, 0.3, "m", "scale of the robust weights in the first round");
-  v("last_scale_m", p.fit.last_scale_m, 0.001, 0.1, "m", "scale of the robust weights in the last round");
+  v("scale_m", p.fit.scale_m, 0.001, 0.1, "m", "scale of the robust weights");
+  v("bend_price", p.fit.bend_price, 1.0, 1e4, "1/m", "price of a rim's kinks, in knots' worth of mask edges");
   v("rounds", p.fit.rounds, 1, 100, "", "rounds of reweighting");
   v("inside_px", p.edges.inside_px, 1, 50, "px", "the garment's label has to hold this far inside a mask edge");
   v("outside_px", p.edges.outside_px, 1, 50, "px", "other labels have to hold this far outside a mask edge");
@@ -32,12 +33,17 @@ void fields(V& v, LimbSplineParams& p) {
   v("in_front_m", p.edges.in_front_m, 0.005, 0.2, "m", "something this much nearer hides the rim");
   v("goes_on_m", p.edges.goes_on_m, 0.0, 0.2, "m", "the closed surface has to go on this far beyond a rim");
   v("least_rise", p.edges.least_rise, 0.0, 1.0, "", "part of the way out across a rim that has to lead along the limb");
+  v("least_gap_m", p.depth.least_gap_m, 0.002, 0.1, "m", "cloth nearer to the skin is not told from it by depth");
+  v("contradiction_m", p.depth.contradiction_m, 0.001, 1.0, "m",
+    "mask edges this far from the same view's depth edges are dropped");
   v("least_coverage", p.least_coverage, 0.0, 1.0, "", "part of a rim that must be seen for it to count as observed");
   v("shortest_edge_m", p.shortest_edge_m, 0.0005, 0.02, "m", "shorter edges that the cut leaves are collapsed");
 }
 
-constexpr double kShortEnd = 0.05;     // weight of an end of the points that is short of the mask edges' curve
-constexpr double kEarlyEnd_m = 0.015;  // points that end this much before the others of a rim were not seen further
+constexpr double kShortEnd = 0.05;      // weight of an end of the points that is short of the mask edges' curve
+constexpr std::size_t kFewestEnds = 3;  // beside edges, to learn from
+constexpr double kMostShort_m = 0.04;   // that points end short of the cloth
+constexpr double kEarlyEnd_m = 0.015;   // points that end this much before the others of a rim were not seen further
 
 struct Scene {
   const CaptureSession& session;
@@ -98,18 +104,32 @@ std::vector<RimSample> support_ends(const PointCloud& support, const Opening& op
   return samples;
 }
 
-// The mask edges, and the ends of the points in sectors without edges: ankles are often below the colour picture, where
-// only the depth tells how far the cloth goes. It goes at least as far as the points; ends short of `rough`, the curve
-// of the edges alone, say little, because depth does not tell cloth that lies close from skin.
+// The edges, and the ends of the points in sectors without edges. Points end short of the cloth, as pixels at edges are
+// dropped: by how much is learned from the sectors that have both. Where too few do, ends short of `rough`, the curve
+// of the edges alone, say little.
 std::vector<RimSample> completed(std::vector<RimSample> edges, const RimCurve& rough, std::vector<RimSample> ends) {
-  const std::size_t seen = edges.size();
-  for (RimSample& end : ends) {
-    if (end.along < rough.at(end.angle)) end.weight *= kShortEnd;
-    bool covered = false;
-    for (std::size_t i = 0; i < seen && !covered; ++i)
-      covered = std::abs(std::remainder(edges[i].angle - end.angle, 2 * M_PI)) < 0.15 &&
-                std::abs(edges[i].along - end.along) < 0.1;
-    if (!covered) edges.push_back(end);
+  std::vector<double> short_by;
+  const auto covered = [&edges](const RimSample& end) {
+    return std::any_of(edges.begin(), edges.end(), [&](const RimSample& edge) {
+      return std::abs(std::remainder(edge.angle - end.angle, 2 * M_PI)) < 0.15 &&
+             std::abs(edge.along - end.along) < 0.1;
+    });
+  };
+  std::vector<RimSample> alone;
+  for (const RimSample& end : ends) {
+    if (covered(end))
+      short_by.push_back(rough.at(end.angle) - end.along);
+    else
+      alone.push_back(end);
+  }
+  const bool known = short_by.size() >= kFewestEnds;
+  if (known) std::nth_element(short_by.begin(), short_by.begin() + short_by.size() / 2, short_by.end());
+  for (RimSample& end : alone) {
+    if (known)
+      end.along += std::clamp(short_by[short_by.size() / 2], 0.0, kMostShort_m);
+    else if (end.along < rough.at(end.angle))
+      end.weight *= kShortEnd;
+    edges.push_back(end);
   }
   return edges;
 }
@@ -245,8 +265,15 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
   work.parts = parts_below(closed.mesh, scene);
   work.openings = garment_openings(work.kind, closed.mesh, work.parts, scene.limbs);
   if (work.openings.empty()) return {};
-  work.edges = rim_samples(scene.segmentation, name == "top" ? Label::top : Label::bottom, scene.session, scene.views,
-                           MeshQuery(closed.mesh), scene.naked, scene.limbs, work.openings, params.edges);
+  const Label label = name == "top" ? Label::top : Label::bottom;
+  const MeshQuery query(closed.mesh);
+  work.edges = rim_samples(scene.segmentation, label, scene.session, scene.views, query, scene.naked, scene.limbs,
+                           work.openings, params.edges);
+  for (auto& [opening, samples] : depth_rim_samples(scene.segmentation, label, scene.session, scene.views, query,
+                                                    scene.naked, scene.limbs, work.openings, params.depth)) {
+    auto& edges = work.edges[opening];
+    edges = reconciled(edges, samples, params.depth.contradiction_m);
+  }
   for (const Opening& opening : work.openings) work.nearer[opening.name] = nearer_to_arm(opening, closed.mesh, scene);
   for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20) {  // stiffer, should the soft rims cross
     auto garment = cut_open(closed, work, scene, params);

@@ -112,7 +112,7 @@ std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& se
       if (!opening) continue;
       const double along = opening->along(point->point), rise = opening->along(point->beyond) - along;
       if (rise < params.least_rise * (point->beyond - point->point).norm()) continue;
-      samples[opening->name].push_back({opening->angle(point->point), along, point->cosine});
+      samples[opening->name].push_back({opening->angle(point->point), along, point->cosine, view.index});
     }
   }
   return samples;

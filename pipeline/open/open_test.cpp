@@ -7,6 +7,7 @@
 
 #include "pipeline/common/dressed_figure_for_tests.h"
 #include "pipeline/open/cut.h"
+#include "pipeline/open/depth_edges.h"
 #include "pipeline/open/rim_fit.h"
 #include "pipeline/surface/surface.h"
 
@@ -125,6 +126,31 @@ TEST(RimFit, DeepVNeckIsFollowed) {
     EXPECT_NEAR(curve.at(angle), truth(angle), std::abs(angle) < 0.1 ? 0.012 : 0.005) << angle;
 }
 
+// Where a print or a shadow draws the mask's edge into the cloth, and nothing shows the true edge.
+TEST(RimFit, StraysThatReachALittleWayRoundMakeNoDent) {
+  for (const double depth : {0.035, 0.045}) {
+    std::vector<RimSample> samples;
+    const auto truth = [](double angle) { return -0.1 + 0.02 * std::cos(angle) - 0.008 * std::cos(2 * angle); };
+    for (int i = 0; i < 500; ++i) {
+      const double angle = -M_PI + 2 * M_PI * i / 500.0, off = std::abs(angle + 1.4);
+      const double stray = off < 0.2 ? depth * (1 - off / 0.3) : 0;
+      samples.push_back({angle, truth(angle) - stray + 0.001 * normal4(8, 1, i)[0], 0.5});
+    }
+    const RimCurve curve = fit_rim(samples, {});
+    for (double angle = -3; angle < 3.1; angle += 0.05) EXPECT_NEAR(curve.at(angle), truth(angle), 0.010) << angle;
+  }
+}
+
+TEST(RimFit, DepthOfTheSameViewOverrulesMaskEdges) {
+  const std::vector<RimSample> mask{{0.00, 0.30, 1, 0}, {0.02, 0.28, 1, 0}, {0.02, 0.30, 1, 1}, {1.00, 0.30, 1, 0}};
+  const std::vector<RimSample> depth{{0.03, 0.275, 1, 0}, {0.05, 0.270, 1, 0}};
+  const auto both = reconciled(mask, depth, 0.010);
+  ASSERT_EQ(both.size(), 5u);  // the first of the mask's is gone: the third is another view's, the fourth elsewhere
+  EXPECT_EQ(both[0].along, 0.28);
+  EXPECT_EQ(both[1].view, 1);
+  EXPECT_EQ(both[2].angle, 1.00);
+}
+
 TEST(RimFit, NothingSeenIsNoCurve) {
   EXPECT_TRUE(fit_rim({}, {}).knots.empty());
   EXPECT_EQ(fit_rim({}, {}).coverage, 0);
@@ -185,6 +211,48 @@ TEST_P(EveryOpening, SkirtHasTwoRims) {
   ASSERT_TRUE(open.garments.count("bottom"));
   expect_open(open.garments.at("bottom").mesh, 2);
   EXPECT_NEAR(mean_y(*rim_named(open.garments.at("bottom"), "hem")), 0.5, 0.012);
+}
+
+void expect_ankles(const OpenGarments& open, double height, double tolerance) {
+  ASSERT_TRUE(open.garments.count("bottom"));
+  for (const char* name : {"left_ankle", "right_ankle"}) {
+    const Rim* ankle = rim_named(open.garments.at("bottom"), name);
+    ASSERT_TRUE(ankle) << name;
+    for (const Vector3d& p : ankle->points) EXPECT_NEAR(p.y(), height, tolerance) << name;
+  }
+}
+
+// Legs that run on below the ankle, as closed surfaces do; points end a pixel or two before the cloth does.
+ClosedGarments long_legs(const figure::Clothes& clothes) {
+  figure::Clothes longer = clothes;
+  longer.ankle_y -= 0.05;
+  ClosedGarments closed;
+  ClosedGarment& bottom = closed.garments["bottom"];
+  bottom.mesh = figure::surface_of({-0.3, 0.1, -0.25}, {0.3, 1.15, 0.25}, 0.012,
+                                   [&](const Vector3d& p) { return figure::bottom(p, longer); });
+  for (const Vector3d& v : bottom.mesh.vertices)
+    if (v.y() > clothes.ankle_y + 0.015) bottom.support.points.push_back(v);
+  return closed;
+}
+
+TEST_P(EveryOpening, DepthShowsWhereLegsEnd) {
+  figure::Clothes clothes;
+  clothes.bottom_ease_m = 0.025;
+  clothes.ankle_y = 0.30;
+  const figure::Capture capture = figure::capture(clothes, 0.001);
+  const ClosedGarments closed = long_legs(clothes);
+  figure::Capture below = capture;  // the colour picture ends 0.45 m above the floor
+  for (auto& [name, sensor] : below.calibration.sensors) {
+    sensor.color->height = 215;
+    below.segmentation.labels[name] = below.segmentation.labels[name].rowRange(0, 215).clone();
+  }
+  expect_ankles(run(GetParam(), below, closed), clothes.ankle_y, 0.010);
+  figure::Capture shadow = capture;  // skin in the shade of the hem taken for cloth, 40 mm down
+  cv::Mat& labels = shadow.segmentation.labels["k1"];
+  for (int x = 0; x < labels.cols; ++x)
+    for (int y = labels.rows - 1; y > 5; --y)
+      if (labels.at<uchar>(y, x) == 1 && labels.at<uchar>(y - 5, x) == 3) labels.at<uchar>(y, x) = 3;
+  expect_ankles(run(GetParam(), shadow, closed), clothes.ankle_y, 0.010);
 }
 
 TEST_P(EveryOpening, NothingToOpenIsNothing) {

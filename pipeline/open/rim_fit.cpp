@@ -8,12 +8,14 @@
 #include <limits>
 #include <optional>
 
+#include "pipeline/open/rim_path.h"
 #include "scenes/random.h"
 
 namespace dressform {
 namespace {
 
 const std::uint64_t kStream = stream_of("flat cut");
+constexpr double kOffPath = 2.5;  // scales that samples may lie off the best path
 constexpr double kTension = 1.0;  // of first differences: angles without samples are bridged without swinging out
 
 struct Place {
@@ -34,23 +36,24 @@ double tukey(double residual, double scale) {
 }
 
 Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::VectorXd& weights, double smoothness,
-                      double flatness, const FlatCut& flat, int count) {
+                      double flatness, const RimCurve& base, int count) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-  // A knot's samples weigh one together, so that the smoothness means the same for any density. Those that have lost
-  // their robust weight count in the sum: where samples lie all along the limb, none is to be believed.
+  // A knot's samples weigh one together, so that the smoothness means the same for any density; few less, as they may
+  // all be strays. Those that have lost their robust weight count in the sum: where samples lie all along the limb,
+  // none is to be believed.
   std::vector<double> per_knot(count, 0);
   for (const RimSample& s : samples) per_knot[place(s.angle, count).knot] += s.weight;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Place p = place(samples[i].angle, count);
     const int a = p.knot, b = (p.knot + 1) % count;
-    const double w = weights[i] * std::min(1.0, per_knot[a]) / std::max(per_knot[a], 1e-12);
+    const double w = weights[i] / std::max(kFullRimKnot, per_knot[a]);
     const double wa = 1 - p.part, wb = p.part;
     normal(a, a) += w * wa * wa;
     normal(a, b) += w * wa * wb;
     normal(b, a) += w * wa * wb;
     normal(b, b) += w * wb * wb;
-    const double off = samples[i].along - flat.at(samples[i].angle);
+    const double off = samples[i].along - base.at(samples[i].angle);
     right[a] += w * wa * off;
     right[b] += w * wb * off;
   }
@@ -161,25 +164,25 @@ RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& para
   RimCurve curve;
   if (samples.empty()) return curve;
   const int count = params.knots;
-  const FlatCut flat = fit_flat_cut(samples, params.last_scale_m);
+  const FlatCut flat = fit_flat_cut(samples, 2 * params.scale_m);
   const auto knot_angle = [count](int i) { return -M_PI + 2 * M_PI * i / count; };
-  for (int i = 0; i < count; ++i) curve.knots.push_back(flat.at(knot_angle(i)));
+  const RimCurve path{best_rim_path(samples, flat, {params.scale_m, params.bend_price})};
+  for (int i = 0; i < count; ++i) curve.knots.push_back(path.at(knot_angle(i)));
   Eigen::VectorXd weights(samples.size());
   for (int round = 0; round < params.rounds; ++round) {
-    const double part = params.rounds > 1 ? static_cast<double>(round) / (params.rounds - 1) : 1;
-    const double scale = params.first_scale_m * std::pow(params.last_scale_m / params.first_scale_m, part);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      weights[i] = samples[i].weight * tukey(samples[i].along - curve.at(samples[i].angle), scale);
-    if (weights.sum() < 1e-9) break;
-    const double smoothness = params.first_smoothness * std::pow(params.smoothness / params.first_smoothness, part);
-    const Eigen::VectorXd off = solve(samples, weights, smoothness, params.flatness, flat, count);
-    for (int i = 0; i < count; ++i) curve.knots[i] = flat.at(knot_angle(i)) + off[i];
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const RimSample& s = samples[i];
+      const bool near = std::abs(s.along - path.at(s.angle)) < kOffPath * params.scale_m;  // no creeping towards strays
+      weights[i] = near ? s.weight * tukey(s.along - curve.at(s.angle), params.scale_m) : 0;
+    }
+    const Eigen::VectorXd off = solve(samples, weights, params.smoothness, params.flatness, path, count);
+    for (int i = 0; i < count; ++i) curve.knots[i] = path.at(knot_angle(i)) + off[i];
   }
   std::vector<char> covered(36, 0);
   double squares = 0;
   for (const RimSample& s : samples) {
     const double residual = s.along - curve.at(s.angle);
-    if (std::abs(residual) > 2 * params.last_scale_m) continue;
+    if (std::abs(residual) > 4 * params.scale_m) continue;
     ++curve.inliers;
     squares += residual * residual;
     covered[place(s.angle, 36).knot] = 1;

@@ -8,6 +8,7 @@ struct RimSample {
   double angle = 0;  // radians
   double along = 0;  // metres
   double weight = 1;
+  int view = -1;  // the sensor that saw it, in CaptureSession::sensors; -1: none in particular
 };
 
 // A closed curve along(angle): a periodic spline on evenly spaced knots.
@@ -22,12 +23,11 @@ struct RimCurve {
 
 struct RimFitParams {
   int knots = 72;
-  double smoothness = 0.3;        // weight of the curve's second differences against the samples, in the last round
-  double flatness = 0.05;         // weight of its deviation from the flat cut
-  double first_smoothness = 3e3;  // in the first round: next to a tilted circle
-  double first_scale_m = 0.04;    // Tukey's scale at the start ...
-  double last_scale_m = 0.008;    // ... and at the end
-  int rounds = 12;
+  double smoothness = 1.0;  // weight of the second differences of what it is off the best path, against the samples
+  double flatness = 0.05;   // weight of what it is off the path itself
+  double scale_m = 0.004;   // of the robust weights (Tukey)
+  double bend_price = 150;  // of the path that the curve starts as: see rim_path.h
+  int rounds = 4;
 };
 
 // A flat cut through a tube: along = middle + tilt_cos cos(angle) + tilt_sin sin(angle).
@@ -41,9 +41,9 @@ struct FlatCut {
 // tilt stays small.
 FlatCut fit_flat_cut(const std::vector<RimSample>& samples, double scale_m);
 
-// Robust fit by iteratively reweighted least squares: Tukey's weights. The curve starts as the flat cut, as most rims
-// are; from round to round the weights' scale shrinks and the curve softens, so that a stray group of samples has lost
-// its weight before the curve could bend to it. Angles without samples go back to the flat cut. No samples: no knots.
+// Robust fit: starts as the best path of all (rim_path.h), and follows the samples near it by iteratively reweighted
+// least squares with Tukey's weights; so kinks stay, strays have no say, and what no sample shows is the path's.
+// No samples: no knots.
 RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& params);
 
 }  // namespace dressform
