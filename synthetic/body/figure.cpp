@@ -86,7 +86,7 @@ void plan_arm(const ArmPose& pose, FigurePlan& plan) {
 
 }  // namespace
 
-double FigureShape::Level::exponent() const { return std::clamp(2.3 * std::exp(fullness), 1.8, 24.0); }
+double FigureShape::Level::exponent() const { return std::clamp(2.3 * std::exp(fullness), 1.8, 40.0); }
 
 FigurePlan make_plan(const BodySpec& spec, const BodySizes& p, const FigureShape& shape) {
   FigurePlan plan;
