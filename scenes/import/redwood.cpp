@@ -14,16 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RedwoodParams {
-  double depth_per_m = 1000, tolerance_ms = 20;
-};
-
-template <class V>
-void fields(V& v, RedwoodParams& p) {
-  v("depth_per_m", p.depth_per_m, 1000.0, 65535.0, "1/m", "what depth images count in");
-  v("tolerance_ms", p.tolerance_ms, 0.0, 1000.0, "ms", "how far apart in time depth and colour of one moment may be");
-}
-
 // Open3D's file: size and the columns of the camera matrix, one after the other.
 Camera read_intrinsics(const fs::path& file) {
   const JsonValue json = read_json(file);
@@ -45,7 +35,7 @@ fs::path first_existing(const fs::path& folder, std::initializer_list<const char
 }
 
 std::vector<StampedFile> synchronised(const NumberedFiles& depth, const fs::path& color_folder,
-                                      const RedwoodParams& params, const fs::path& depth_folder,
+                                      const StreamParams& params, const fs::path& depth_folder,
                                       std::vector<std::string>& notes) {
   const NumberedFiles color = numbered_files(color_folder);
   if (!color.files.empty() && color.timed != depth.timed)
@@ -55,7 +45,7 @@ std::vector<StampedFile> synchronised(const NumberedFiles& depth, const fs::path
                        notes);
 }
 
-Recording redwood(const fs::path& folder, const RecordingUse& use, const RedwoodParams& params) {
+Recording redwood(const fs::path& folder, const RecordingUse& use, const StreamParams& params) {
   if (use != RecordingUse::scan) fail_without_infrared(folder);
   Recording recording;
   recording.sensor.model = "kinect_v1";

@@ -31,6 +31,17 @@ std::vector<std::pair<int, int>> associate(const std::vector<StampedFile>& a, co
 std::vector<StampedFile> with_partners(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& color,
                                        double tolerance_s, const std::string& where, std::vector<std::string>& notes);
 
+// What recordings of a depth stream beside a colour stream leave open.
+struct StreamParams {
+  double depth_per_m = 1000, tolerance_ms = 20;
+};
+
+template <class V>
+void fields(V& v, StreamParams& p) {
+  v("depth_per_m", p.depth_per_m, 1000.0, 65535.0, "1/m", "what depth images count in");
+  v("tolerance_ms", p.tolerance_ms, 0.0, 1000.0, "ms", "how far apart in time depth and colour of one moment may be");
+}
+
 // Throws InputError that says why a recording without infrared pictures is no shot and no board.
 [[noreturn]] void fail_without_infrared(const std::filesystem::path& recording);
 

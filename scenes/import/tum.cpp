@@ -15,15 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct TumParams {
-  double depth_per_m = 5000, tolerance_ms = 20;
+struct TumParams : StreamParams {
+  TumParams() { depth_per_m = 5000; }
 };
-
-template <class V>
-void fields(V& v, TumParams& p) {
-  v("depth_per_m", p.depth_per_m, 1000.0, 65535.0, "1/m", "what depth images count in");
-  v("tolerance_ms", p.tolerance_ms, 0.0, 1000.0, "ms", "how far apart in time depth and colour of one moment may be");
-}
 
 // One line of a list: stamp and path.
 StampedFile listed_file(const fs::path& folder, const std::string& where, const std::string& line) {
