@@ -1,5 +1,6 @@
 #include "scenes/ground_truth.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 #include <unistd.h>
 
@@ -21,7 +22,8 @@ using nlohmann::ordered_json;
 
 const std::vector<std::string> kSlots{"top", "bottom"};
 const std::vector<std::string> kScans{"scan_naked", "scan_user"};
-constexpr int kLabels = 4;  // 0 none, 1 skin, 2 top, 3 bottom
+constexpr int kLabels = 4;            // 0 none, 1 skin, 2 top, 3 bottom
+constexpr double kMostStrain = 0.05;  // of 95 % of the edges of cloth that lies as cloth does
 
 void read_poses(const fs::path& folder, GroundTruth& truth) {
   const JsonValue file = read_json(folder / "world_from_sensor.json");
@@ -82,22 +84,35 @@ TruthGarment read_garment(const fs::path& ply, const fs::path& glb) {
   return garment;
 }
 
+ClothRest read_rest(const JsonValue& value) {
+  return {value.at("settled").flag(), value.at("speed_m_per_s").number(), value.at("strain_p95").number()};
+}
+
 void read_garments(const fs::path& folder, GroundTruth& truth) {
   for (const auto& slot : kSlots) {
     const fs::path ply = folder / (slot + ".ply");
     if (fs::exists(ply)) truth.garments[slot] = read_garment(ply, folder / (slot + ".glb"));
+  }
+  if (fs::exists(folder / "rest.json")) {  // sessions of before have none
+    const JsonValue file = read_json(folder / "rest.json");
+    for (auto& [slot, garment] : truth.garments) garment.rest = read_rest(file.at(slot));
   }
   if (truth.garments.empty()) throw InputError(folder.string(), "found no top.ply or bottom.ply; expected a garment");
 }
 
 void write_garments(const fs::path& folder, const GroundTruth& truth) {
   fs::create_directories(folder);
+  auto rest = ordered_json::object();
   for (const auto& [slot, garment] : truth.garments) {
+    rest[slot] = {{"settled", garment.rest.settled},
+                  {"speed_m_per_s", garment.rest.speed_m_per_s},
+                  {"strain_p95", garment.rest.strain_p95}};
     PlyExtras extras;
     extras.vertex_properties["views"] = garment.views;
     write_ply(folder / (slot + ".ply"), garment.mesh, extras);
     write_glb(folder / (slot + ".glb"), garment.textured);
   }
+  write_json(folder / "rest.json", rest);
 }
 
 void read_labels(const fs::path& folder, GroundTruth& truth) {
@@ -136,6 +151,25 @@ void write_all(const fs::path& folder, const GroundTruth& truth) {
 }
 
 }  // namespace
+
+std::vector<std::string> drape_warnings(const fs::path& session_folder) {
+  const fs::path file = session_folder / "truth/garments/rest.json";
+  std::vector<std::string> lines;
+  if (!fs::exists(file)) return lines;
+  const JsonValue slots = read_json(file);
+  for (const auto& slot : kSlots) {
+    if (!slots.has(slot)) continue;
+    const ClothRest rest = read_rest(slots.at(slot));
+    if (!rest.settled)
+      lines.push_back(fmt::format("{}: the cloth did not come to rest, it still moves at {:.0f} mm/s", slot,
+                                  1e3 * rest.speed_m_per_s));
+    if (rest.strain_p95 > kMostStrain)
+      lines.push_back(
+          fmt::format("{}: the cloth is stretched by up to {:.1f} % in 95 % of its edges; expected {:.0f} %", slot,
+                      1e2 * rest.strain_p95, 1e2 * kMostStrain));
+  }
+  return lines;
+}
 
 bool ground_truth_exists(const fs::path& session_folder) { return fs::is_directory(session_folder / "truth"); }
 

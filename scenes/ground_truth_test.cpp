@@ -29,6 +29,7 @@ TruthGarment some_garment() {
   garment.textured.mesh = garment.mesh;
   garment.textured.corner_uv.assign(3, {Vector2f(0, 0), Vector2f(0.5f, 0), Vector2f(0, 0.25f)});
   garment.textured.texture = cv::Mat(8, 16, CV_8UC3, cv::Scalar(10, 120, 200));
+  garment.rest = {false, 0.03125, 0.0625};
   return garment;
 }
 
@@ -98,12 +99,31 @@ TEST_F(TruthFolder, RoundTrip) {
   EXPECT_EQ(a.textured.mesh.triangles.size(), 3u);
   EXPECT_EQ(a.textured.texture.size(), cv::Size(16, 8));
   EXPECT_NEAR(a.textured.corner_uv[1][2].y(), 0.25, 1e-6);
+  EXPECT_FALSE(a.rest.settled);
+  EXPECT_EQ(a.rest.speed_m_per_s, b.rest.speed_m_per_s);
+  EXPECT_EQ(a.rest.strain_p95, b.rest.strain_p95);
   ASSERT_EQ(read.rims.at("top").size(), 1u);
   EXPECT_EQ(read.rims.at("top")[0].name, "neck");
   EXPECT_EQ(read.rims.at("top")[0].visible, 0.75);
   EXPECT_EQ(read.rims.at("top")[0].points[1], Vector3d(0, 0.3, 0));
   EXPECT_EQ(read.labels.at("k2").at<std::uint8_t>(3, 3), 2);
   EXPECT_EQ(read.scene_toml, written.scene_toml);
+}
+
+// What does not lie as cloth does is said, one line each.
+TEST_F(TruthFolder, WarnsOfClothThatDidNotSettle) {
+  const auto lines = drape_warnings(folder_);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_THAT(lines[0], HasSubstr("top: the cloth did not come to rest, it still moves at 31 mm/s"));
+  EXPECT_THAT(lines[1], HasSubstr("top: the cloth is stretched by up to 6.2 %"));
+  GroundTruth good = some_truth();
+  good.garments["top"].rest = {true, 0.001, 0.03};
+  fs::remove_all(folder_ / "truth");
+  EXPECT_TRUE(drape_warnings(folder_).empty());
+  write_ground_truth(folder_, good);
+  EXPECT_TRUE(drape_warnings(folder_).empty());
+  fs::remove(folder_ / "truth/garments/rest.json");  // as sessions of before are
+  EXPECT_TRUE(read_ground_truth(folder_).garments.at("top").rest.settled);
 }
 
 TEST_F(TruthFolder, WriterRefusesExistingTruth) {

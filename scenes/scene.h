@@ -36,10 +36,10 @@ struct GarmentSpec {
   std::string kind = "shirt";            // shirt, trousers, skirt, dress
   std::filesystem::path mesh, texture;   // someone's own garment, placed as given; empty: procedural
   double sleeve = 0.45;                  // part of the arm from shoulder to wrist that is covered (shirts)
-  double length = 1.0;                   // trousers, skirts: part of the way from waist to ankle; shirts: see below
+  double length = 1.0;                   // trousers, skirts, dresses: part of the way from waist to ankle
   double hem_below_waist_m = 0.20;       // shirts: how far the hem hangs below the waist
   std::string neck = "round";            // shirts, dresses: round, v
-  double neck_depth_m = 0.10;            // of the neckline in front, below the neck's side
+  double neck_depth_m = 0.10;            // of the neckline in front, below the neck's side; polo: of the slit
   std::string collar = "none";           // shirts, dresses: none, polo, hood
   bool tucked = false;                   // shirts: worn inside the trousers or skirt
   double hem_slant = 0;                  // of the hem: rise per metre towards the front

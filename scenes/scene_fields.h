@@ -33,18 +33,23 @@ void fields(V& v, GarmentSpec& garment) {
   v("name", garment.name, {}, "for the report: \"shirt 1\"");
   v("kind", garment.kind, {"shirt", "trousers", "skirt", "dress"}, "what it is; tells the slot and the openings");
   v("sleeve", garment.sleeve, 0.0, 1.0, "", "part of the arm from shoulder to wrist that is covered");
-  v("length", garment.length, 0.1, 1.1, "", "trousers, skirts, dresses: part of the way from waist to ankle");
+  v("length", garment.length, 0.25, 1.1, "",
+    "trousers, skirts, dresses: part of the way from waist to ankle; trousers beyond 1 fall on the foot");
   v("hem_below_waist_m", garment.hem_below_waist_m, 0.0, 0.6, "m", "shirts: how far the hem hangs below the waist");
   v("neck", garment.neck, {"round", "v"}, "shirts, dresses: form of the neckline");
-  v("neck_depth_m", garment.neck_depth_m, 0.04, 0.25, "m", "shirts, dresses: how deep the neckline is in front");
-  v("collar", garment.collar, {"none", "polo", "hood"}, "shirts, dresses: what is sewn to the neckline");
+  v("neck_depth_m", garment.neck_depth_m, 0.04, 0.25, "m",
+    "shirts, dresses: how deep the neckline or a hood's opening is in front; polo: length of the slit");
+  v("collar", garment.collar, {"none", "polo", "hood"},
+    "shirts, dresses: what is sewn to the neck; none, a turned-down collar, a hood worn up");
   v("tucked", garment.tucked, "shirts: worn inside the trousers or the skirt");
   v("hem_slant", garment.hem_slant, -0.5, 0.5, "", "rise of the hem per metre towards the front");
-  v("waist_offset_m", garment.waist_offset_m, -0.12, 0.06, "m", "trousers, skirts: how far above the waist they are worn");
+  v("waist_offset_m", garment.waist_offset_m, -0.12, 0.06, "m",
+    "trousers, skirts: how far above the waist they are worn");
   v("ease_m", garment.ease_m, 0.0, 0.5, "m", "garment girth minus body girth, at chest (tops) or hip (bottoms)");
   v("fullness", garment.fullness, 0.0, 0.3, "", "cloth beyond the smooth shape, part of its width: it falls in folds");
   v("flare", garment.flare, 0.0, 1.5, "", "skirts, dresses: how much wider the hem is cut than it hangs");
-  v("bending_length_m", garment.bending_length_m, 0.01, 0.08, "m", "over which a strip of the cloth bends by its weight");
+  v("bending_length_m", garment.bending_length_m, 0.01, 0.08, "m",
+    "over which a strip of the cloth bends by its weight");
   v("cloth_edge_m", garment.cloth_edge_m, 0.005, 0.02, "m", "edge of the triangles that the cloth is made of");
 }
 

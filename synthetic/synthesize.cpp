@@ -247,6 +247,7 @@ void add_garment_truth(const Scene& scene, const GarmentSpec& spec, const Garmen
   TruthGarment& entry = truth.garments[spec.slot];
   entry.mesh = garment.textured.mesh;
   entry.textured = garment.textured;
+  entry.rest = garment.rest;
   entry.views = count_views(dressed, entry.mesh, scene.rig);
   for (TruthRim rim : garment.rims) {
     rim.visible = visible_part(dressed, rim.points, scene.rig);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "eval/report/score_table.h"
+#include "scenes/ground_truth.h"
 
 namespace dressform {
 
@@ -33,6 +34,7 @@ SceneRunProgress scene_progress(Progress& progress) {
     progress.finish(
         "synthesize (" + capture.recipe.variant + ")",
         capture.reused ? "reused" : seconds_text(capture.seconds) + fmt::format("  {:.0f} MB", capture.peak_memory_mb));
+    for (const std::string& line : drape_warnings(capture.session)) progress.finish("warning", line);
   };
   result.road = road_progress(progress);
   return result;

@@ -11,6 +11,7 @@ namespace dressform {
 struct Garment {
   TexturedMesh textured;       // one-sided open surface, outward, world frame
   std::vector<TruthRim> rims;  // `visible` is filled in by the capture
+  ClothRest rest;              // procedural: how it lies
   std::vector<double> rest_m;  // procedural: lengths at rest of the edges, in the order of features_of()
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "synthetic/garments/clip.h"
+#include "synthetic/garments/collar.h"
 #include "synthetic/garments/drape/cloth.h"
 #include "synthetic/garments/garment.h"
 #include "synthetic/geometry/solid.h"
@@ -22,7 +24,8 @@ struct RimCut {
 // lies.
 struct ClothPiece {
   std::function<Vector2d(const Vector3d& point, const Vector3d& near)> place;
-  bool front = false;  // carries the print's text and large motifs
+  bool text = false;   // carries the print's text
+  bool trunk = false;  // goes round the trunk with the others of these: what the print runs across meets at their seams
 };
 
 // A garment as a closed solid, the cuts that open it, and the pieces it is made of.
@@ -35,6 +38,7 @@ struct GarmentShape {
   std::function<int(const Vector3d& center)> piece_of;  // of a triangle
   Fullness fullness;                                    // of the cloth against the solid
   Level held;                                           // positive where a waistband holds the cloth
+  std::optional<CollarCut> collar;                      // sewn to the first cut's rim
 };
 
 // Wider by a part across the axis, as long along it.
@@ -63,7 +67,8 @@ class ArcLength {
 // The angle that differs from `near` by less than half a turn.
 double angle_near(double angle, double near);
 
-// Fills the texture coordinates and paints the print.
-TexturedMesh textured_garment(const Mesh& mesh, const GarmentShape& shape, const PrintSpec& print, Seed seed);
+// Fills the texture coordinates and paints the print. collar: places of the last triangles, which are the collar's.
+TexturedMesh textured_garment(const Mesh& mesh, const GarmentShape& shape,
+                              const std::vector<std::array<Vector2d, 3>>& collar, const PrintSpec& print, Seed seed);
 
 }  // namespace dressform

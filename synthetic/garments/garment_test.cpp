@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <opencv2/core.hpp>
 #include <set>
 
@@ -25,6 +27,11 @@ GarmentSpec garment(const std::string& kind, double sleeve_or_length, const std:
   spec.ease_m = 0.08;
   spec.print.kind = print;
   spec.cloth_edge_m = 0.010;  // coarser than usual, for time
+  return spec;
+}
+
+GarmentSpec with_collar(GarmentSpec spec, const std::string& collar) {
+  spec.collar = collar;
   return spec;
 }
 
@@ -109,6 +116,8 @@ void expect_at_rest(const Garment& garment, const Mesh& body, const Mesh& under)
   ASSERT_EQ(cloth.rest_m.size(), cloth.features.edges.size());
   EXPECT_LE(strain_quantile(cloth, mesh.vertices, 0.95), 0.05);
   EXPECT_GT(strain_quantile(cloth, mesh.vertices, 0.95), 0.001);  // it did move
+  EXPECT_EQ(garment.rest.strain_p95, strain_quantile(cloth, mesh.vertices, 0.95));
+  EXPECT_TRUE(garment.rest.settled) << garment.rest.speed_m_per_s;
   EXPECT_EQ(self_intersections(mesh), 0);
   EXPECT_TRUE(crossing_triangles(mesh, body).empty());
   EXPECT_TRUE(crossing_triangles(mesh, under).empty());
@@ -135,6 +144,43 @@ void expect_readable(const TexturedMesh& textured) {
   EXPECT_LT(mirrored, 0.01 * all);
 }
 
+double lowest(const std::vector<Vector3d>& points) {
+  double low = 9;
+  for (const Vector3d& p : points) low = std::min(low, p.y());
+  return low;
+}
+
+double highest(const std::vector<Vector3d>& points) {
+  double high = -9;
+  for (const Vector3d& p : points) high = std::max(high, p.y());
+  return high;
+}
+
+// A polo collar rises about the neck and comes down again outside; a hood covers the crown and leaves the face free.
+void expect_collar(const Garment& top, const std::string& collar, const Body& body) {
+  const auto& cloth = top.textured.mesh.vertices;
+  const auto& rim = top.rims[0].points;
+  const auto part = [](const std::vector<Vector3d>& points, const auto& keep) {
+    std::vector<Vector3d> kept;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(kept), keep);
+    return kept;
+  };
+  if (collar == "polo") {
+    const auto behind = [](const Vector3d& p) { return p.z() < -0.06; };
+    EXPECT_LT(highest(part(rim, behind)), highest(part(cloth, behind)) - 0.025);
+    EXPECT_LT(highest(cloth), body.landmarks.neck + 0.10);
+    const auto slit = [](const Vector3d& p) { return std::abs(p.x()) < 0.03 && p.z() > 0; };
+    EXPECT_LT(lowest(part(rim, slit)), lowest(part(rim, behind)) - 0.05);
+  } else {
+    EXPECT_GT(highest(cloth), body.landmarks.stature);
+    EXPECT_GT(highest(rim), body.landmarks.stature - 0.09);  // above the eyes
+    const auto face = [&](const Vector3d& p) {
+      return std::abs(p.x()) < 0.03 && p.z() > 0.02 && p.y() < highest(rim) - 0.02 && p.y() > body.landmarks.neck;
+    };
+    EXPECT_TRUE(part(cloth, face).empty());
+  }
+}
+
 TEST_P(Outfits, FitOutsideTheBodyWithExactRims) {
   const Outfit& outfit = GetParam();
   const Body body = make_body(outfit.body);
@@ -151,17 +197,19 @@ TEST_P(Outfits, FitOutsideTheBodyWithExactRims) {
     expect_clear(each.textured.mesh, body.mesh, 0.002);
     expect_readable(each.textured);
   }
+  if (outfit.top.collar != "none") expect_collar(worn[1], outfit.top.collar, body);
 }
 
 const Outfit kOutfits[] = {
-    {"group1", {}, garment("trousers", 0.96), garment("shirt", 0.42, "stars")},
-    {"group3", {}, garment("trousers", 0.97, "denim"), garment("shirt", 0.96, "stripes")},
+    {"group1", {}, garment("trousers", 0.96), with_collar(garment("shirt", 0.42, "stars"), "polo")},
+    {"group3", {}, garment("trousers", 0.97, "denim"), with_collar(garment("shirt", 0.96, "stripes"), "hood")},
     {"group4", {}, garment("skirt", 0.48), garment("shirt", 0.42, "stars")},
-    {"woman", woman(), garment("trousers", 0.5), garment("shirt", 0.3, "complex")},
-    {"sampled_woman", sampled("woman", 3), garment("skirt", 0.7), garment("shirt", 0.9, "plaid")},
-    {"sampled_man", sampled("man", 2), garment("trousers", 1.0), garment("shirt", 0.5)},
-    {"stout_man", stout_man(), garment("trousers", 0.55), garment("shirt", 0.42)},
+    {"woman", woman(), garment("trousers", 0.5), with_collar(garment("shirt", 0.3, "complex"), "polo")},
+    {"sampled_woman", sampled("woman", 3), garment("skirt", 0.7), with_collar(garment("shirt", 0.9, "plaid"), "hood")},
+    {"sampled_man", sampled("man", 2), garment("trousers", 1.0), with_collar(garment("shirt", 0.5), "polo")},
+    {"stout_man", stout_man(), garment("trousers", 0.55), with_collar(garment("shirt", 0.42), "hood")},
 };
+
 // A dress, a wedge-shaped neckline, a hem that rises to the front, a shirt tucked into trousers worn low.
 TEST(Garment, IsCutAsAsked) {
   GarmentSpec dress = garment("dress", 0.3);
@@ -207,6 +255,74 @@ TEST(Garment, IsCutAsAsked) {
 
   trousers.tucked = true;
   EXPECT_THROW(make_garment(trousers, man, {}, 2), InputError);
+  trousers.tucked = false;
+  trousers.collar = "polo";
+  EXPECT_THROW(make_garment(trousers, man, {}, 2), InputError);
+  shirt.collar = "hood";
+  shirt.neck = "v";
+  EXPECT_THROW(make_garment(shirt, man, {}, 2), InputError);
+  GarmentSpec skirt = garment("skirt", 1.05);
+  EXPECT_THROW(make_garment(skirt, man, {}, 2), InputError);
+}
+
+// Legs cut longer than the wearer's do not end lower by as much: they rest on the foot, above the floor, in folds.
+TEST(Garment, LongTrousersBreakOnTheFoot) {
+  const Body man = make_body({});
+  GarmentSpec spec = garment("trousers", 1.06);
+  spec.cloth_edge_m = 0.014;
+  const Garment longer = make_garment(spec, man, {}, 2);
+  expect_well_cut(longer, {"waist", "left_ankle", "right_ankle"});
+  expect_at_rest(longer, man.mesh, {});
+  const double excess = 0.06 * (man.landmarks.waist - man.landmarks.ankle);
+  for (const int ankle : {1, 2}) {
+    EXPECT_GT(lowest(longer.rims[ankle].points), 0.003);
+    EXPECT_LT(lowest(longer.rims[ankle].points), man.landmarks.ankle - 0.01);
+    EXPECT_GT(highest(longer.rims[ankle].points), man.landmarks.ankle - 0.8 * excess);
+  }
+}
+
+// Checks on the back are as square as on the front, and the bands across meet at the side seams.
+TEST(Garment, PrintRunsStraightOnFrontAndBack) {
+  GarmentSpec spec = garment("shirt", 0.4, "plaid");
+  spec.cloth_edge_m = 0.014;
+  const Garment shirt = make_garment(spec, make_body({}), {}, 2);
+  const TexturedMesh& textured = shirt.textured;
+  const auto& v = textured.mesh.vertices;
+  const Vector2d size(textured.texture.cols, textured.texture.rows);
+  const auto place = [&](size_t t, int k) {
+    return Vector2d(textured.corner_uv[t][k].cast<double>().cwiseProduct(size));
+  };
+  const auto below_arms = [&](size_t t) {
+    double y = 0;
+    for (int k = 0; k < 3; ++k) y += v[textured.mesh.triangles[t][k]].y() / 3;
+    return y < 1.36 && y > 1.0 && std::abs(v[textured.mesh.triangles[t][0]].x()) < 0.19;
+  };
+  double sheared = 0, all = 0;
+  std::map<std::pair<int, int>, Vector2d> at_edge;
+  int seams = 0;
+  for (size_t t = 0; t < textured.mesh.triangles.size(); ++t) {
+    if (!below_arms(t)) continue;
+    const Vector3i& corner = textured.mesh.triangles[t];
+    const Vector3d a = v[corner[1]] - v[corner[0]], b = v[corner[2]] - v[corner[0]];
+    Eigen::Matrix2d flat, printed;
+    const Vector3d x = a.normalized(), y = a.cross(b).cross(a).normalized();
+    flat << a.norm(), b.dot(x), 0, b.dot(y);
+    printed << place(t, 1) - place(t, 0), place(t, 2) - place(t, 0);
+    const Eigen::Vector2d stretch = Eigen::JacobiSVD<Eigen::Matrix2d>(printed * flat.inverse()).singularValues();
+    all += a.cross(b).norm();
+    if (stretch[0] > 1.4 * stretch[1]) sheared += a.cross(b).norm();
+    for (int k = 0; k < 3; ++k) {
+      const auto edge = std::minmax(corner[k], corner[(k + 1) % 3]);
+      const Vector2d middle = 0.5 * (place(t, k) + place(t, (k + 1) % 3));
+      const auto [other, is_new] = at_edge.emplace(edge, middle);
+      const Vector2d jump = other->second - middle;
+      if (is_new || std::abs(jump.x()) < 20 || std::abs(jump.y()) > 400) continue;  // no seam; to a sleeve
+      ++seams;
+      EXPECT_NEAR(other->second.y(), middle.y(), 6);  // 3 mm
+    }
+  }
+  EXPECT_LT(sheared, 0.1 * all);
+  EXPECT_GT(seams, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Garments, Outfits, testing::ValuesIn(kOutfits),

@@ -24,7 +24,7 @@ struct Atlas {
   double pixels_per_m = kPixelsPerMetre;
 };
 
-// Rows of pieces, each as wide as the widest piece at least.
+// Rows of pieces, as wide as the widest piece and as the first two side by side (trouser legs, front and back).
 Atlas pack(std::vector<PieceRect> rects, double pixels_per_m) {
   Atlas atlas;
   atlas.pixels_per_m = pixels_per_m;
@@ -34,8 +34,7 @@ Atlas pack(std::vector<PieceRect> rects, double pixels_per_m) {
     r.height = static_cast<int>(std::ceil((r.bottom - r.top) * pixels_per_m));
     widest = std::max(widest, r.width);
   }
-  // Two tall pieces stand side by side (trouser legs).
-  if (rects.size() == 2) widest = rects[0].width + rects[1].width;
+  if (rects.size() > 1) widest = std::max(widest, rects[0].width + rects[1].width);
   int x = 0, y = 0, row_height = 0;
   for (PieceRect& r : rects) {
     if (x > 0 && x + r.width > widest) {
@@ -90,25 +89,66 @@ double ArcLength::at(double s, double angle) const {
 
 double angle_near(double angle, double near) { return near + std::remainder(angle - near, 2 * M_PI); }
 
-TexturedMesh textured_garment(const Mesh& mesh, const GarmentShape& shape, const PrintSpec& print, Seed seed) {
-  std::vector<PieceRect> rects(shape.pieces.size());
-  std::vector<int> piece(mesh.triangles.size());
-  std::vector<std::array<Vector2d, 3>> places(mesh.triangles.size());
+namespace {
+
+// Which piece of cloth each triangle is cut from, and where its corners lie on it, metres.
+struct Pattern {
+  std::vector<int> piece;
+  std::vector<std::array<Vector2d, 3>> places;
+  std::vector<PieceRect> rects;
+};
+
+Pattern laid_out(const Mesh& mesh, const GarmentShape& shape, const std::vector<std::array<Vector2d, 3>>& collar) {
+  Pattern pattern;
+  pattern.rects.resize(shape.pieces.size() + (collar.empty() ? 0 : 1));
+  const size_t own = mesh.triangles.size() - collar.size();
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
     const Vector3d center = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
-    piece[i] = shape.piece_of(center);
-    PieceRect& rect = rects[piece[i]];
-    for (int k = 0; k < 3; ++k) {
-      const Vector2d at = places[i][k] = shape.pieces[piece[i]].place(mesh.vertices[t[k]], center);
+    const int piece = i < own ? shape.piece_of(center) : static_cast<int>(shape.pieces.size());
+    std::array<Vector2d, 3> places;
+    for (int k = 0; k < 3; ++k)
+      places[k] = i < own ? shape.pieces[piece].place(mesh.vertices[t[k]], center) : collar[i - own][k];
+    PieceRect& rect = pattern.rects[piece];
+    for (const Vector2d& at : places) {
       rect.half_width = std::max(rect.half_width, std::abs(at.x()) + kMargin);
       rect.top = std::min(rect.top, at.y() - kMargin);
       rect.bottom = std::max(rect.bottom, at.y() + kMargin);
     }
+    pattern.piece.push_back(piece);
+    pattern.places.push_back(places);
   }
-  Atlas atlas = pack(rects, kPixelsPerMetre);
+  return pattern;
+}
+
+// The pieces round the trunk are printed from one height to another, all of them the same.
+void level_trunk(std::vector<PieceRect>& rects, const std::vector<ClothPiece>& pieces) {
+  double top = 1e9, bottom = -1e9;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    if (!pieces[i].trunk) continue;
+    top = std::min(top, rects[i].top);
+    bottom = std::max(bottom, rects[i].bottom);
+  }
+  for (size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i].trunk) rects[i].top = top, rects[i].bottom = bottom;
+}
+
+// What is printed on a piece: text in front, bands across round the trunk.
+PrintSpec print_on(const ClothPiece& piece, PrintSpec print) {
+  if (!piece.text) print.text.clear();
+  if (!piece.trunk && print.kind == "stripes") print.kind = "plain";
+  return print;
+}
+
+}  // namespace
+
+TexturedMesh textured_garment(const Mesh& mesh, const GarmentShape& shape,
+                              const std::vector<std::array<Vector2d, 3>>& collar, const PrintSpec& print, Seed seed) {
+  Pattern pattern = laid_out(mesh, shape, collar);
+  level_trunk(pattern.rects, shape.pieces);
+  Atlas atlas = pack(pattern.rects, kPixelsPerMetre);
   const int largest = std::max(atlas.width, atlas.height);
-  if (largest > kLargestTexture) atlas = pack(rects, kPixelsPerMetre * (kLargestTexture - 8) / largest);
+  if (largest > kLargestTexture) atlas = pack(pattern.rects, kPixelsPerMetre * (kLargestTexture - 8) / largest);
 
   TexturedMesh result;
   result.mesh = mesh;
@@ -116,11 +156,7 @@ TexturedMesh textured_garment(const Mesh& mesh, const GarmentShape& shape, const
   for (size_t i = 0; i < atlas.rects.size(); ++i) {
     const PieceRect& r = atlas.rects[i];
     if (r.bottom < r.top) continue;
-    PrintSpec cloth = print;
-    if (!shape.pieces[i].front) {
-      cloth.text.clear();
-      if (cloth.kind == "stripes") cloth.kind = "plain";
-    }
+    const PrintSpec cloth = print_on(i < shape.pieces.size() ? shape.pieces[i] : ClothPiece{}, print);
     const cv::Mat painted = paint_print(cloth, 2 * r.half_width, r.bottom - r.top, atlas.pixels_per_m, seed + i);
     cv::Mat target = result.texture(cv::Rect(r.x, r.y, r.width, r.height));
     if (painted.size() == target.size())
@@ -131,9 +167,9 @@ TexturedMesh textured_garment(const Mesh& mesh, const GarmentShape& shape, const
   result.corner_uv.resize(mesh.triangles.size());
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      const PieceRect& r = atlas.rects[piece[i]];
-      const double x = r.x + (places[i][k].x() + r.half_width) * atlas.pixels_per_m;
-      const double y = r.y + (places[i][k].y() - r.top) * atlas.pixels_per_m;
+      const PieceRect& r = atlas.rects[pattern.piece[i]];
+      const double x = r.x + (pattern.places[i][k].x() + r.half_width) * atlas.pixels_per_m;
+      const double y = r.y + (pattern.places[i][k].y() - r.top) * atlas.pixels_per_m;
       result.corner_uv[i][k] = Vector2f(static_cast<float>(x / atlas.width), static_cast<float>(y / atlas.height));
     }
   return result;

@@ -35,22 +35,21 @@ struct NamedLoop {
   std::vector<int> vertices;
 };
 
-// Each boundary loop belongs to the cut on whose zero its points lie.
+// Each boundary loop belongs to the cut on whose zero its points lie. The first cut's comes last: a collar may have
+// been sewn to it.
 std::vector<NamedLoop> name_rims(const Mesh& cut, const std::vector<RimCut>& cuts) {
-  const auto loops = boundary_loops(cut);
-  std::vector<NamedLoop> rims;
-  for (const RimCut& each : cuts) {
-    double best = 1e9;
-    NamedLoop rim{each.name, {}};
-    for (const auto& loop : loops) {
+  auto loops = boundary_loops(cut);
+  std::vector<NamedLoop> rims(cuts.size());
+  for (size_t i = cuts.size(); i-- > 0;) {
+    const auto off = [&](const std::vector<int>& loop) {
       double sum = 0;
-      for (int i : loop) sum += std::abs(each.beyond(cut.vertices[i])) / loop.size();
-      if (sum < best) {
-        best = sum;
-        rim.vertices = loop;
-      }
-    }
-    rims.push_back(std::move(rim));
+      for (int v : loop) sum += std::abs(cuts[i].beyond(cut.vertices[v])) / loop.size();
+      return sum;
+    };
+    const auto best =
+        std::min_element(loops.begin(), loops.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+    rims[i] = {cuts[i].name, std::move(*best)};
+    loops.erase(best);
   }
   return rims;
 }
@@ -148,26 +147,73 @@ std::optional<Mesh> put_on(const GarmentShape& shape, const Body& body, const st
   return disentangled(std::move(mesh), body, inner);
 }
 
-Garment draped(const GarmentSpec& spec, const GarmentShape& shape, const Mesh& cut, const Body& body,
+// With the collar, where there is one.
+CollaredCloth sewn_together(const GarmentShape& shape, Mesh cloth, const Body& body, double edge_m) {
+  if (shape.collar)
+    return with_collar(cloth, name_rims(cloth, shape.cuts).front().vertices, *shape.collar, body, edge_m);
+  CollaredCloth plain;
+  plain.mesh = std::move(cloth);
+  return plain;
+}
+
+// Lets the cloth fall, and goes on twice at most where it does not come to rest. The cloth as it then lies.
+ClothRest let_fall(Cloth& cloth, const Wearer& wearer, DrapeParams params, Seed seed) {
+  constexpr int kMoreTimes = 2;
+  DrapeResult result;
+  for (int time = 0; time <= kMoreTimes && !result.converged; ++time) {
+    result = drape(cloth, wearer, params, seed);
+    cloth.mesh.vertices = result.vertices;
+    params.grow_part = params.ruffle_m = 0;
+  }
+  return {result.converged, result.speed_m_per_s, result.strain_p95};
+}
+
+// Lets the cloth fall in its final triangles. Where they cut through the body between their corners, the cloth is kept
+// further off, as long as that takes. Throws InputError where it does not help.
+ClothRest let_fall_clear(Cloth& cloth, Wearer wearer, const DrapeParams& params, const Mesh& body, Seed seed) {
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    const ClothRest rest = let_fall(cloth, wearer, params, seed);
+    const std::vector<int> crossing = crossing_triangles(cloth.mesh, body);
+    if (crossing.empty()) return rest;
+    std::set<int> corners;
+    for (int t : crossing)
+      for (int k = 0; k < 3; ++k) corners.insert(cloth.mesh.triangles[t][k]);
+    for (int i : corners) wearer.clearance_m[i] += 0.5 * kClearance;
+  }
+  throw InputError("garment.cloth_edge_m",
+                   "found triangles too large to lie on this body without cutting through it; "
+                   "expected a smaller edge");
+}
+
+Garment draped(const GarmentSpec& spec, const GarmentShape& shape, const CollaredCloth& sewn, const Body& body,
                const std::vector<Garment>& inner, Seed seed) {
+  const Mesh& cut = sewn.mesh;
   const SurfaceDistance skin(body.mesh);
   const auto held = [&](const Vector3d& p) { return shape.held && shape.held(p) > 0; };
   DrapeParams params;
   params.bending_length_m = spec.bending_length_m;
   Cloth cloth = cloth_as_cut(cut, shape.fullness, held);
-  Wearer wearer{&skin, std::vector<double>(cut.vertices.size(), kClearance), joined(inner)};
-  cloth.mesh.vertices = drape(cloth, wearer, params, seed).vertices;
+  if (!sewn.places.empty()) cloth.bending = sewn.bending(cloth.features);
+  Wearer wearer{&skin, std::vector<double>(cut.vertices.size(), kClearance), joined(inner), 0};
+  const ClothRest coarse = let_fall(cloth, wearer, params, seed);
 
   const Mesh fine_cut = subdivided(cut, cloth.features);
-  const Cloth fine = halved(cloth, cut, shape.fullness);
+  Cloth fine = halved(cloth, cut, shape.fullness);
   wearer.clearance_m.assign(fine.mesh.vertices.size(), kClearance);
   params.seconds = 0.1;
   params.step_s /= 2;
   params.grow_part = 0;
   params.ruffle_m = 0;
   Garment garment;
-  garment.textured = textured_garment(fine_cut, shape, spec.print, seed);
-  garment.textured.mesh.vertices = drape(fine, wearer, params, seed).vertices;
+  garment.rest = let_fall_clear(fine, wearer, params, body.mesh, seed);
+  garment.rest.settled &= coarse.settled;
+  garment.rest.speed_m_per_s = std::max(garment.rest.speed_m_per_s, coarse.speed_m_per_s);
+  std::vector<std::array<Vector2d, 3>> collar;
+  for (const auto& corners : sewn.places)
+    for (const auto& quarter : quartered(corners)) collar.push_back(quarter);
+  garment.textured = textured_garment(fine_cut, shape, collar, spec.print, seed);
+  garment.textured.mesh.vertices = fine.mesh.vertices;
   garment.rest_m = fine.rest_m;
   for (const NamedLoop& loop : name_rims(fine_cut, shape.cuts)) {
     TruthRim rim;
@@ -182,16 +228,19 @@ Garment draped(const GarmentSpec& spec, const GarmentShape& shape, const Mesh& c
 
 Garment sewn_garment(const GarmentSpec& asked, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   GarmentSpec spec = asked;
-  if (spec.collar != "none")
-    throw InputError("garment.collar", "found \"" + spec.collar + "\"; expected \"none\": others are not cut yet");
+  if (spec.collar != "none" && spec.kind != "shirt" && spec.kind != "dress")
+    throw InputError("garment.collar", "found it on a " + spec.kind + "; expected it on a shirt or a dress");
+  if (spec.collar != "none" && spec.neck != "round")
+    throw InputError("garment.neck", "found \"" + spec.neck + "\" under a " + spec.collar + "; expected \"round\"");
   if (spec.tucked && spec.kind != "shirt")
     throw InputError("garment.tucked", "found it on a " + spec.kind + "; expected it on a shirt");
   // Where wide cloth runs into itself (a sleeve into the hip), it is cut closer.
   for (const double part : {1.0, 0.6, 0.3, 0.0}) {
     spec.ease_m = part * asked.ease_m;
     const GarmentShape shape = maker_of(spec.kind)(spec, body, inner, seed);
-    if (const auto cut = put_on(shape, body, inner, 2 * spec.cloth_edge_m))
-      return draped(spec, shape, *cut, body, inner, seed);
+    const double edge_m = 2 * spec.cloth_edge_m;
+    if (auto cut = put_on(shape, body, inner, edge_m))
+      return draped(spec, shape, sewn_together(shape, std::move(*cut), body, edge_m), body, inner, seed);
   }
   throw InputError("garment." + asked.kind,
                    "found cloth that runs into itself on this body; expected limbs that stand "

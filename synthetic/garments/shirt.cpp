@@ -1,10 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "fmt/format.h"
+#include "scenes/error.h"
 #include "scenes/random.h"
 #include "synthetic/garments/garment_shape.h"
+#include "synthetic/garments/hood.h"
 #include "synthetic/garments/limb_outlines.h"
 #include "synthetic/garments/neckline.h"
+#include "synthetic/garments/shirt_panels.h"
 #include "synthetic/garments/underarm.h"
 
 namespace dressform {
@@ -65,6 +70,8 @@ ClothRows shirt_sleeve(const GarmentSpec& spec, const ClothRows& taut) {
 }  // namespace
 
 GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+  if (spec.kind == "dress" && spec.length > 1)
+    throw InputError("garment.length", fmt::format("found {} on a dress; expected 1 at most", spec.length));
   const BodyLandmarks& m = body.landmarks;
   const double hem_y = hem_height(spec, m);
   const ClothRows trunk = taut_torso(body, inner, hem_y);
@@ -77,10 +84,13 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   const Underarm left_gap(trunk.tube(), left_arm.tube(), 1, cuff);
   const Underarm right_gap(trunk.tube(), right_arm.tube(), -1, right_cuff);
 
+  const auto hood = spec.collar == "hood" ? std::make_shared<const Hood>(body, spec.neck_depth_m) : nullptr;
+
   GarmentShape shape;
-  shape.field = right_gap.parted(left_gap.parted([torso, left, right](const Vector3d& p) {
+  shape.field = right_gap.parted(left_gap.parted([torso, left, right, hood](const Vector3d& p) {
     const double sleeve = p.x() > 0 ? left.field(p) : right.field(p);
-    return smooth_union(torso.field(p), sleeve, 0.028);
+    const double shirt = smooth_union(torso.field(p), sleeve, 0.028);
+    return hood ? smooth_union(shirt, hood->field(p), 0.04) : shirt;
   }));
   const double reach =
       std::max(std::abs(left.point(left.s_max(), 0, 0).x()), std::abs(right.point(right.s_max(), 0, 0).x()));
@@ -89,7 +99,7 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
           -reach - 0.12,
           std::min({torso.s_min(), left.point(left.s_max(), 0, 0).y(), right.point(right.s_max(), 0, 0).y()}) - 0.06,
           -0.40),
-      Vector3d(reach + 0.12, torso.s_max() + 0.02, 0.40)};
+      Vector3d(reach + 0.12, std::max(torso.s_max(), hood ? hood->top() : 0) + 0.02, 0.40)};
 
   // Positive where a place belongs to the sleeve rather than the torso: by the cloth, and beside the gap by the body.
   const auto sleeve_over_torso = [=](const Vector3d& p) {
@@ -99,7 +109,15 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
     const double t = std::clamp((*gap.start_y() - p.y()) / 0.02, 0.0, 1.0);
     return by_cloth + t * (gap.nearer_to_arm(p) - by_cloth);
   };
-  shape.cuts.push_back({"neck", neckline(spec, m)});
+  if (hood) {
+    shape.cuts.push_back({"neck", [hood](const Vector3d& p) { return hood->opening(p); }});
+  } else if (spec.collar == "polo") {
+    shape.collar = CollarCut{collar_seam(m, torso)};
+    shape.cuts.push_back({"neck", [seam = shape.collar->seam, slit = collar_slit(m, spec.neck_depth_m)](
+                                      const Vector3d& p) { return std::max(seam(p), slit(p)); }});
+  } else {
+    shape.cuts.push_back({"neck", neckline(spec, m)});
+  }
   for (const double side : {1.0, -1.0}) {
     const Tube::Frame frame = arm_frame(body, side);
     const double end = side > 0 ? cuff : right_cuff;
@@ -128,11 +146,12 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   };
   if (spec.tucked)
     shape.held = [=](const Vector3d& p) { return std::min(m.waist - 0.02 - p.y(), -sleeve_over_torso(p)); };
-  // A rib draws the neckline in.
+  // A rib draws the neckline in, where no collar is sewn to it.
+  const double draw = shape.collar ? 0 : kRibDraw;
   const Level beyond_neck = shape.cuts.front().beyond;
   shape.fullness = [=](const Vector3d& p) -> Eigen::Matrix3d {
     const double rib = std::clamp(1 + beyond_neck(p) / kRib, 0.0, 1.0);
-    if (rib > 0) return (1 - kRibDraw * rib) * Eigen::Matrix3d::Identity();
+    if (rib > 0) return (1 - draw * rib) * Eigen::Matrix3d::Identity();
     if (sleeve_over_torso(p) < 0) {
       Eigen::Matrix3d cloth = wider_round(Vector3d::UnitY(), wider(p.y()));
       cloth(1, 1) += longer(p.y());
@@ -141,42 +160,13 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
     const Tube& tube = p.x() > 0 ? left : right;
     return wider_round(tube.frame().axis, 0.5 * spec.fullness * std::clamp((tube.polar(p)[0] - 0.06) / 0.08, 0.0, 1.0));
   };
-  const ArcLength torso_arc(torso), left_arc(left), right_arc(right);
-  const double armpit = m.armpit, top = m.neck + 0.05;
-  shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
-                            const Vector3d at = torso.polar(p), about = torso.polar(near);
-                            const double center_angle = angle_near(about[1], 0);
-                            const double angle = angle_near(at[1], center_angle);
-                            // On the shoulder the cloth goes on outwards from the torso's side.
-                            const double level = std::min(at[0], armpit);
-                            const double outwards = std::max(0.0, at[2] - torso.radius(level, angle));
-                            const double side = std::abs(center_angle) < M_PI / 2 ? 1 : -1;  // front or back
-                            const double u =
-                                (1 + wider(p.y())) * torso_arc.at(level, angle) + side * std::copysign(outwards, angle);
-                            // Over the shoulder the cloth rolls backwards: its depth counts as length, too.
-                            const double w = std::clamp((p.y() - armpit) / 0.06, 0.0, 1.0);
-                            const double rise = 0.6 * w * std::max(0.0, 0.10 - std::abs(p.z() - kBack));
-                            return Vector2d(u, top - p.y() - rise);
-                          },
-                          true});
-  for (const double side : {1.0, -1.0}) {
-    const Tube tube = side > 0 ? left : right;
-    const ArcLength arc = side > 0 ? left_arc : right_arc;
-    shape.pieces.push_back({[tube, arc](const Vector3d& p, const Vector3d& near) {
-                              const Vector3d at = tube.polar(p), about = tube.polar(near);
-                              const double angle = angle_near(at[1], angle_near(about[1], 0));
-                              return Vector2d(arc.at(at[0], angle), at[0] - tube.s_min());
-                            },
-                            false});
-  }
   // The sleeves are sewn on where they leave the torso, below the round of the shoulder.
-  const auto sleeve_piece = [=](const Vector3d& p) {
+  const auto on_sleeve = [=](const Vector3d& p) {
     const double along = p.x() > 0 ? left.polar(p)[0] : right.polar(p)[0];
     return std::min(sleeve_over_torso(p), along - 0.045);
   };
-  shape.seams.push_back(sleeve_piece);
-  shape.seams.push_back([](const Vector3d& p) { return p.z() - kBack; });  // side and shoulder seams
-  shape.piece_of = [sleeve_piece](const Vector3d& p) { return sleeve_piece(p) < 0 ? 0 : p.x() > 0 ? 1 : 2; };
+  add_shirt_panels({torso, left, right, kBack, m.armpit, m.neck + 0.05, wider, on_sleeve}, shape);
+  if (hood) add_hood_panels(*hood, collar_seam(m, torso), shape);
   return shape;
 }
 

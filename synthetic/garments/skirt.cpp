@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fmt/format.h"
+#include "scenes/error.h"
 #include "scenes/random.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/garments/limb_outlines.h"
@@ -30,6 +32,8 @@ ClothRows skirt_rows(const GarmentSpec& spec, const Body& body, const std::vecto
 }  // namespace
 
 GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
+  if (spec.length > 1)
+    throw InputError("garment.length", fmt::format("found {} on a skirt; expected 1 at most", spec.length));
   const BodyLandmarks& m = body.landmarks;
   const double waist_y = m.waist - 0.012 + spec.waist_offset_m;
   const double hem_y = waist_y - std::clamp(spec.length, 0.25, 1.0) * (waist_y - m.ankle);
@@ -58,7 +62,7 @@ GarmentShape skirt_shape(const GarmentSpec& spec, const Body& body, const std::v
                               const double across = arc.at(p.y(), angle) - arc.at(p.y(), middle);
                               return Vector2d((1 + wider(p.y())) * across, waist_y + 0.03 - p.y());
                             },
-                            middle == 0});
+                            middle == 0, true});
   const Level forward = [tube](const Vector3d& p) { return std::cos(tube.polar(p)[1]) * tube.polar(p)[2]; };
   shape.seams.push_back(forward);
   shape.piece_of = [forward](const Vector3d& p) { return forward(p) > 0 ? 0 : 1; };

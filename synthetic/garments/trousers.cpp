@@ -9,6 +9,7 @@ namespace dressform {
 namespace {
 
 constexpr double kClearance = 0.005;
+constexpr double kBreak = 0.24;  // above the hem, what trousers are too long by falls in folds, m
 
 ClothRows trousers_seat(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner) {
   const BodyLandmarks& m = body.landmarks;
@@ -92,11 +93,20 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
                           }});
   }
 
+  // Legs longer than the wearer's are put on shorter than they are cut, and then fall on the foot.
+  const double too_long = std::max(0.0, spec.length - 1) * (waist_y - ankle_y);
+  const auto longer = [=](double y) {
+    return too_long / kBreak * std::clamp((hem_y + kBreak - y) / (0.5 * kBreak), 0.0, 1.0) / 0.75;
+  };
   const auto wider = [=](double y) {
     const double leg = 1 - 0.5 * std::clamp((m.knee + 0.10 - y) / 0.20, 0.0, 1.0);  // less below the knee
     return leg * spec.fullness * std::clamp((waist_y - 0.03 - y) / 0.10, 0.0, 1.0);
   };
-  shape.fullness = [=](const Vector3d& p) { return wider_round(Vector3d::UnitY(), wider(p.y())); };
+  shape.fullness = [=](const Vector3d& p) {
+    Eigen::Matrix3d cloth = wider_round(Vector3d::UnitY(), wider(p.y()));
+    cloth(1, 1) += longer(p.y());
+    return cloth;
+  };
   shape.held = [=](const Vector3d& p) { return p.y() - (waist_y - waist_slant * p.z() - 0.03); };
   const ArcLength seat_arc(seat), left_arc(left), right_arc(right);
   for (const double side : {1.0, -1.0}) {
@@ -116,7 +126,7 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
                               return Vector2d((1 + wider(p.y())) * (u_leg + t * (u_seat - u_leg)),
                                               waist_y + 0.03 - p.y());
                             },
-                            false});
+                            false, false});
   }
   shape.seams.push_back([](const Vector3d& p) { return p.x(); });
   shape.piece_of = [](const Vector3d& p) { return p.x() > 0 ? 0 : 1; };

@@ -11,6 +11,16 @@ constexpr double kHalfGap = 0.008;    // between the two layers where there is r
 constexpr double kLeastRoom = 0.026;  // between arm and trunk for both layers and a gap, m
 constexpr double kLeastSide = 0.02;   // the shortest inner side of a sleeve, m
 constexpr double kSlope = 0.5;        // at which the gap opens downwards
+constexpr double kStep = 0.004;       // along the arm, m
+constexpr double kJump = 0.006;       // more than that from one step to the next, and the arm becomes part of the trunk
+constexpr double kBelowJump = 0.010;  // the gap starts that much further down, m
+
+// Whether the arm's outline is about the same a step further up.
+bool goes_on(const Tube& arm, double s) {
+  for (double angle = 0.5 * M_PI; angle < 1.5 * M_PI; angle += 0.1)
+    if (std::abs(arm.radius(s, angle) - arm.radius(s - kStep, angle)) > kJump) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -18,7 +28,9 @@ Underarm::Underarm(const Tube& trunk, const Tube& arm, double side, double cuff_
     : trunk_(trunk), arm_(arm), side_(side) {
   const auto inner = [&](double s) { return arm_.point(s, M_PI, arm_.radius(s, M_PI)); };
   double s = cuff_s;
-  for (; s > 0 && trunk_.field(inner(s)) >= kLeastRoom;) s -= 0.004;
+  while (s > 0 && trunk_.field(inner(s)) >= kLeastRoom && goes_on(arm_, s)) s -= kStep;
+  // What is part of both would leave ragged shreds in the gap.
+  if (s > 0 && !(goes_on(arm_, s + kStep) && goes_on(arm_, s) && goes_on(arm_, s - kStep))) s += kBelowJump;
   if (inner(s).y() - inner(cuff_s).y() >= kLeastSide) start_y_ = inner(s).y();
 }
 

@@ -1,42 +1,32 @@
 #include "synthetic/geometry/self_intersection.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <iterator>
 #include <set>
 #include <vector>
 
+#include "synthetic/geometry/cgal_mesh.h"
+
 namespace dressform {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-using Pairs = std::vector<std::pair<Surface::Face_index, Surface::Face_index>>;
-
-Surface surface_of(const Mesh& mesh) {
-  Surface surface;
-  for (const Vector3d& v : mesh.vertices) surface.add_vertex(Kernel::Point_3(v.x(), v.y(), v.z()));
-  for (const Vector3i& t : mesh.triangles) {
-    const auto vertex = [&](int k) { return Surface::Vertex_index(static_cast<Surface::size_type>(t[k])); };
-    surface.add_face(vertex(0), vertex(1), vertex(2));
-  }
-  return surface;
-}
+using Pairs = std::vector<std::pair<ExactSurface::Face_index, ExactSurface::Face_index>>;
 
 // Each triangle by itself, so that it need not be manifold; those without area meet nothing.
-void add_loose(Surface& surface, const Mesh& mesh) {
+void add_loose(ExactSurface& surface, const Mesh& mesh) {
   for (const Vector3i& t : mesh.triangles) {
     const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     if ((b - a).cross(c - a).squaredNorm() == 0) continue;
-    const auto vertex = [&](const Vector3d& v) { return surface.add_vertex(Kernel::Point_3(v.x(), v.y(), v.z())); };
+    const auto vertex = [&](const Vector3d& v) {
+      return surface.add_vertex(ExactKernel::Point_3(v.x(), v.y(), v.z()));
+    };
     surface.add_face(vertex(a), vertex(b), vertex(c));
   }
 }
 
-Pairs meeting(const Surface& surface) {
+Pairs meeting(const ExactSurface& surface) {
   Pairs pairs;
   CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(surface, std::back_inserter(pairs));
   return pairs;
@@ -44,10 +34,10 @@ Pairs meeting(const Surface& surface) {
 
 }  // namespace
 
-long self_intersections(const Mesh& mesh) { return static_cast<long>(meeting(surface_of(mesh)).size()); }
+long self_intersections(const Mesh& mesh) { return static_cast<long>(meeting(to_exact(mesh)).size()); }
 
 std::vector<int> crossing_triangles(const Mesh& mesh, const Mesh& other) {
-  Surface surface = surface_of(mesh);
+  ExactSurface surface = to_exact(mesh);
   const size_t own = mesh.triangles.size();
   add_loose(surface, other);
   std::set<int> crossing;

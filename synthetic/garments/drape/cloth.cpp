@@ -16,6 +16,17 @@ std::vector<double> rest_lengths(const Mesh& cut, const Features& features, cons
   return rest;
 }
 
+// A halved edge bends as the whole one did, one inside of a triangle as the stiffest of that triangle's.
+std::vector<double> halved_bending(const Cloth& cloth, const Features& fine) {
+  std::vector<double> parts;
+  const int corners = static_cast<int>(cloth.mesh.vertices.size());
+  for (const auto& e : fine.edges) {  // e[0] < e[1]: the second is the middle of an edge
+    const double second = cloth.bending[e[1] - corners];
+    parts.push_back(e[0] < corners ? second : std::max(cloth.bending[e[0] - corners], second));
+  }
+  return parts;
+}
+
 }  // namespace
 
 Cloth cloth_as_cut(const Mesh& mesh, const Fullness& fullness, const std::function<bool(const Vector3d&)>& held) {
@@ -52,6 +63,7 @@ Cloth halved(const Cloth& cloth, const Mesh& cut, const Fullness& fullness) {
   fine.mesh = subdivided(cloth.mesh, cloth.features);
   fine.features = features_of(fine.mesh.triangles);
   fine.rest_m = rest_lengths(subdivided(cut, cloth.features), fine.features, fullness);
+  if (!cloth.bending.empty()) fine.bending = halved_bending(cloth, fine.features);
   fine.held = cloth.held;
   for (const auto& e : cloth.features.edges) fine.held.push_back(cloth.held[e[0]] && cloth.held[e[1]]);
   return fine;

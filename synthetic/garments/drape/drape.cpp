@@ -104,12 +104,14 @@ class Drape {
     for (const Vector3i& t : layer.triangles) features_.triangles.push_back(t + Vector3i::Constant(moving_));
   }
 
-  double rest_length(int a, int b) const {
+  size_t edge_number(int a, int b) const {
     if (a > b) std::swap(a, b);
     const auto less = [](const Eigen::Vector2i& x, const std::pair<int, int>& y) { return std::pair(x[0], x[1]) < y; };
     const auto& edges = cloth_.features.edges;
-    return cloth_.rest_m[std::lower_bound(edges.begin(), edges.end(), std::pair(a, b), less) - edges.begin()];
+    return std::lower_bound(edges.begin(), edges.end(), std::pair(a, b), less) - edges.begin();
   }
+  double rest_length(int a, int b) const { return cloth_.rest_m[edge_number(a, b)]; }
+  double bending_part(int a, int b) const { return cloth_.bending.empty() ? 1 : cloth_.bending[edge_number(a, b)]; }
 
   // Inverse masses of cloth that weighs 1 kg per square metre: all other constants are relative to that.
   void weigh() {
@@ -156,7 +158,7 @@ class Drape {
       const double area = triangle_area(ab, ac, bc) + triangle_area(ab, ad, bd);
       hinges_.push_back({{a, b, c, d},
                          {at_b_c + at_b_d, at_a_c + at_a_d, -at_a_c - at_b_c, -at_a_d - at_b_d},
-                         area / stiffness});
+                         area / (stiffness * bending_part(a, b))});
     }
   }
 
@@ -221,6 +223,9 @@ class Drape {
     for (const Hinge& hinge : hinges_) bend(hinge);
     for (const LayerContact& contact : layers_) keep_apart(contact);
     for (const BodyContact& contact : on_body_) keep_off(contact);
+    for (int i = 0; i < moving_; ++i)
+      if (x_[i].y() < wearer_.floor_y_m + wearer_.clearance_m[i])
+        keep_off({i, Vector3d(x_[i].x(), wearer_.floor_y_m, x_[i].z()), Vector3d::UnitY()});
     const bool room_left = stay_in_room();
     for (int i = 0; i < moving_; ++i)
       if (lightness_[i] > 0) velocity_[i] = (x_[i] - before_[i]) / dt;

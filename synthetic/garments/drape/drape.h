@@ -12,6 +12,7 @@ struct Wearer {
   const SurfaceDistance* body = nullptr;  // may be absent
   std::vector<double> clearance_m;        // one per vertex of the cloth
   Mesh layer;                             // may be empty
+  double floor_y_m = -1e3;                // nothing falls below
 };
 
 struct DrapeParams {
