@@ -10,14 +10,15 @@
 namespace dressform {
 namespace {
 
-constexpr double kOffBody = 0.007;    // of the collar, m
-constexpr double kOffCloth = 0.006;   // of the fall off what it lies on, m
-constexpr double kFold = 0.008;       // across the fold, m
-constexpr double kPoint = 0.35;       // by which part the fall is longer at its ends in front
-constexpr double kPointWidth = 0.05;  // over which it grows longer, m
-constexpr double kLean = 0.35;        // of the stand towards the neck
-constexpr double kPressed = 0.02;     // of the stiffness along a fold or a seam
-constexpr double kTwoLayers = 5;      // of the stiffness in the collar
+constexpr double kOffBody = 0.007;                     // of the collar, m
+constexpr double kOffCloth[] = {0.006, 0.009, 0.013};  // of the fall off what it lies on, m: the first that works
+constexpr double kWidestRow = 0.018;                   // across the collar, m
+constexpr double kFold = 0.008;                        // across the fold, m
+constexpr double kPoint = 0.35;                        // by which part the fall is longer at its ends in front
+constexpr double kPointWidth = 0.05;                   // over which it grows longer, m
+constexpr double kLean = 0.35;                         // of the stand towards the neck
+constexpr double kPressed = 0.02;                      // of the stiffness along a fold or a seam
+constexpr double kTwoLayers = 5;                       // of the stiffness in the collar
 
 // The longest run of the rim along the seam, in the rim's order.
 std::vector<int> sewn_part(const Mesh& cloth, const std::vector<int>& rim, const Level& seam) {

@@ -174,8 +174,9 @@ void expect_collar(const Garment& top, const std::string& collar, const Body& bo
   } else {
     EXPECT_GT(highest(cloth), body.landmarks.stature);
     EXPECT_GT(highest(rim), body.landmarks.stature - 0.09);  // above the eyes
-    const auto face = [&](const Vector3d& p) {
-      return std::abs(p.x()) < 0.03 && p.z() > 0.02 && p.y() < highest(rim) - 0.02 && p.y() > body.landmarks.neck;
+    const auto face = [&](const Vector3d& p) {               // eyes to throat
+      return std::abs(p.x()) < 0.03 && p.z() > 0.02 && p.y() < body.landmarks.stature - 0.09 &&
+             p.y() > body.landmarks.neck + 0.02;
     };
     EXPECT_TRUE(part(cloth, face).empty());
   }

@@ -210,7 +210,7 @@ class Drape {
   bool advance(int step, int steps) {
     const double dt = params_.step_s, done = static_cast<double>(step) / steps;
     const double grown = params_.grow_part > 0 ? std::min(1.0, done / params_.grow_part) : 1.0;
-    const double drag = done < 0.6 ? 2.5 : 2.5 + 30 * (done - 0.6);  // 1/s
+    const double drag = params_.drag_per_s + 30 * std::max(0.0, done - 0.6);  // 1/s
     for (int i = 0; i < moving_; ++i) {
       if (lightness_[i] == 0) continue;
       before_[i] = x_[i];

@@ -22,6 +22,7 @@ struct DrapeParams {
   double thickness_m = 0.003;      // least distance of cloth to cloth
   double seconds = 1.6;            // of the fall
   double step_s = 1.0 / 1500;
+  double drag_per_s = 2.5;        // of the air, at first; it grows towards the end
   double grow_part = 0.1;         // of the time during which the cloth grows from how it was put on to its own size
   double ruffle_m = 0.002;        // unevenness at the start, so that folds have somewhere to begin
   double settled_m_per_s = 0.02;  // mean speed below which it counts as at rest
