@@ -8,14 +8,15 @@
 namespace dressform {
 
 struct CorrectedGarments {
-  std::map<std::string, TexturedMesh> garments;  // on the user; same triangles and UV; no triangle cuts the body
+  std::map<std::string, TexturedMesh> garments;  // on the user; same triangles and UV
   std::map<std::string, int> moved_vertices;
   std::map<std::string, double> largest_move_m;
   std::map<std::string, int> intersecting_pairs;  // garment/body triangle pairs left, by exact predicates
+  std::map<std::string, bool> converged;          // no triangle of the garment cuts the body
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(garments, moved_vertices, largest_move_m, intersecting_pairs);
+    archive(garments, moved_vertices, largest_move_m, intersecting_pairs, converged);
   }
 };
 

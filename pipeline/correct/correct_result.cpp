@@ -25,6 +25,7 @@ void add_corrected(const std::string& name, const TexturedMesh& before, std::vec
   result.moved_vertices[name] = moved;
   result.largest_move_m[name] = largest;
   result.intersecting_pairs[name] = intersecting_pairs;
+  result.converged[name] = intersecting_pairs == 0;
 }
 
 CorrectedGarments each_vertex_moved(const BodyModel& user, const FittedGarments& fitted,

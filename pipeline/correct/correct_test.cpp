@@ -73,6 +73,7 @@ TEST(Correct, SmoothVariantLeavesNothingThatIntersects) {
   const MeshQuery body(input.user.body);
   for (const auto& [name, garment] : result.garments) {
     EXPECT_EQ(result.intersecting_pairs.at(name), 0) << name;
+    EXPECT_TRUE(result.converged.at(name)) << name;
     EXPECT_TRUE(intersecting_pairs(garment.mesh, input.user.body).empty()) << name;
     EXPECT_GT(result.moved_vertices.at(name), 0);
     EXPECT_LT(result.largest_move_m.at(name), 0.03) << name;

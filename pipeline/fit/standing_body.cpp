@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/common/section_depth.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -13,7 +14,7 @@ namespace {
 constexpr int kBins = 180;  // of 2 degrees
 
 // Crotch height over stature, mean .482 and correlation .86 in ANSUR II: beyond these bounds it is not the crotch.
-constexpr double kLowestCrotch = 0.435, kHighestCrotch = 0.53, kMeanCrotch = 0.475;
+constexpr double kLowestCrotch = 0.435, kMeanCrotch = 0.475;
 constexpr double kLowestFork = 0.30;  // to which thighs may be one piece
 constexpr double kLowestArmpit = 0.69, kHighestArmpit = 0.80;
 
@@ -36,32 +37,14 @@ Vector3d trunk_axis(const StandingBody& body, double low, double high) {
   return sum / count;
 }
 
-// Front-to-back extent of a loop where it crosses the line at `offset` to the left of its centroid.
-double depth_at(const SectionLoop& loop, const BodyLimbs& limbs, double offset) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t i = 0, j = loop.points.size() - 1; i < loop.points.size(); j = i++) {
-    const Vector3d a = loop.points[j] - loop.centroid, b = loop.points[i] - loop.centroid;
-    const double x = a.dot(limbs.left) - offset, y = b.dot(limbs.left) - offset;
-    if ((x < 0) == (y < 0)) continue;
-    const double at = (a + x / (x - y) * (b - a)).dot(limbs.front);
-    low = std::min(low, at);
-    high = std::max(high, at);
-  }
-  return std::max(0.0, high - low);
-}
-
-// The crotch by topology, or higher, where the section is two thighs that only touch: much less deep in the middle than
-// to either side.
+// The crotch by topology, or higher, where the section is two thighs that only touch.
 double find_crotch(const StandingBody& body) {
   const double floor = body.limbs.floor_y, lowest = floor + kLowestCrotch * body.stature;
   const double highest = floor + kHighestCrotch * body.stature;
   const double by_topology = body.limbs.crotch_y;
   for (double y = highest; y > std::max(lowest, by_topology); y -= body.sections.step) {
     const SectionLoop* loop = body.trunk_loop(y);
-    if (!loop || loop->points.size() < 8) continue;
-    const double side = 0.055 * body.stature;  // about the middle of a thigh
-    const double middle = depth_at(*loop, body.limbs, 0);
-    if (middle < 0.45 * std::min(depth_at(*loop, body.limbs, side), depth_at(*loop, body.limbs, -side))) return y;
+    if (loop && thighs_that_touch(*loop, body.limbs, body.stature)) return y;
   }
   return by_topology < lowest ? floor + kMeanCrotch * body.stature : std::min(by_topology, highest);
 }

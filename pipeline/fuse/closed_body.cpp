@@ -13,6 +13,7 @@
 #include "pipeline/common/mesh_tidy.h"
 #include "pipeline/common/poisson.h"
 #include "pipeline/fuse/body_points.h"
+#include "pipeline/fuse/thigh_gap.h"
 
 namespace dressform {
 namespace {
@@ -122,7 +123,9 @@ Mesh closed_body(const PointCloud& body, const ClosedBodyOptions& options, const
   if (surface.triangles.empty()) return surface;
   const Lattice lattice = lattice_round(surface);
   Carved solid = carved(lattice, distance_field(surface, lattice), body, views, options.free_space);
-  return solid.points == 0 && ball_shaped(surface) ? surface : ball_like(surface, lattice, std::move(solid.field));
+  const bool parted = part_thighs(lattice, surface, options.thigh_gap_m, solid.field);
+  return solid.points == 0 && !parted && ball_shaped(surface) ? surface
+                                                              : ball_like(surface, lattice, std::move(solid.field));
 }
 
 }  // namespace dressform
