@@ -4,7 +4,9 @@
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -123,53 +125,61 @@ int edge_between(int a, int b) {
   return -1;
 }
 
-// For each of the 256 sign patterns, which surface patch of the cell crosses each edge (-1: none). On a face with four
-// crossings each inside corner is cut off by itself; both cells at the face decide alike.
-struct PatchTable {
-  std::array<std::array<std::int8_t, 12>, 256> patch;
-  std::array<int, 256> count;
-
-  PatchTable() {
-    for (int sign = 0; sign < 256; ++sign) fill(sign);
-  }
-
-  void fill(int sign) {
-    std::array<int, 12> parent;
-    for (int e = 0; e < 12; ++e) parent[e] = e;
-    const auto root = [&](int e) {
-      while (parent[e] != e) e = parent[e];
-      return e;
-    };
-    const auto inside = [&](int corner) { return (sign >> corner & 1) != 0; };
-    for (const auto& face : kFaceCorners) {
-      std::vector<int> crossed;
-      for (int i = 0; i < 4; ++i)
-        if (inside(face[i]) != inside(face[(i + 1) % 4])) crossed.push_back(edge_between(face[i], face[(i + 1) % 4]));
-      if (crossed.size() == 2) parent[root(crossed[0])] = root(crossed[1]);
-      if (crossed.size() == 4)
-        for (int i = 0; i < 4; ++i)
-          if (inside(face[i]))
-            parent[root(edge_between(face[i], face[(i + 3) % 4]))] = root(edge_between(face[i], face[(i + 1) % 4]));
-    }
-    std::array<int, 12> number;
-    number.fill(-1);
-    count[sign] = 0;
-    for (int e = 0; e < 12; ++e) {
-      patch[sign][e] = -1;
-      if (inside(kEdgeCorners[e][0]) == inside(kEdgeCorners[e][1])) continue;
-      int& n = number[root(e)];
-      if (n < 0) n = count[sign]++;
-      patch[sign][e] = static_cast<std::int8_t>(n);
-    }
-  }
+// Which surface patch of a cell crosses each edge (-1: none), and how many patches there are.
+struct Patches {
+  std::array<std::int8_t, 12> of_edge;
+  int count = 0;
 };
+
+// On a face with four crossings each inside corner is cut off by itself, or, where the bit of the face is set in
+// `joined`, each outside corner; both cells at the face must be asked alike.
+Patches patches_of(int sign, int joined) {
+  std::array<int, 12> parent;
+  for (int e = 0; e < 12; ++e) parent[e] = e;
+  const auto root = [&](int e) {
+    while (parent[e] != e) e = parent[e];
+    return e;
+  };
+  const auto inside = [&](int corner) { return (sign >> corner & 1) != 0; };
+  for (int f = 0; f < 6; ++f) {
+    const auto& face = kFaceCorners[f];
+    std::array<int, 4> crossed;
+    int crossings = 0;
+    for (int i = 0; i < 4; ++i)
+      if (inside(face[i]) != inside(face[(i + 1) % 4])) crossed[crossings++] = edge_between(face[i], face[(i + 1) % 4]);
+    if (crossings == 2) parent[root(crossed[0])] = root(crossed[1]);
+    if (crossings == 4)
+      for (int i = 0; i < 4; ++i)
+        if (inside(face[i]) != ((joined >> f & 1) != 0))
+          parent[root(edge_between(face[i], face[(i + 3) % 4]))] = root(edge_between(face[i], face[(i + 1) % 4]));
+  }
+  Patches patches;
+  std::array<int, 12> number;
+  number.fill(-1);
+  for (int e = 0; e < 12; ++e) {
+    patches.of_edge[e] = -1;
+    if (inside(kEdgeCorners[e][0]) == inside(kEdgeCorners[e][1])) continue;
+    int& n = number[root(e)];
+    if (n < 0) n = patches.count++;
+    patches.of_edge[e] = static_cast<std::int8_t>(n);
+  }
+  return patches;
+}
 
 // Builds one vertex per surface patch of a cell and one quad per crossed grid edge.
 class DualMesher {
  public:
-  explicit DualMesher(Grid grid) : grid_(std::move(grid)), first_vertex_(grid_.values.size(), -1) {}
+  explicit DualMesher(Grid grid) : grid_(std::move(grid)), first_vertex_(grid_.values.size(), -1) {
+    for (int sign = 0; sign < 256; ++sign) table_[sign] = patches_of(sign, 0);
+  }
 
   Mesh run() {
+    // What is joined in one place may pinch in the next: a few rounds settle it.
+    for (int round = 0; round < 4; ++round) {
+      const auto before = joined_.size();
+      for_cells([this](int x, int y, int z) { join_pinched(x, y, z); });
+      if (joined_.size() == before) break;
+    }
     for_cells([this](int x, int y, int z) { add_vertices(x, y, z); });
     for_cells([this](int x, int y, int z) { add_quads(x, y, z); });
     return std::move(mesh_);
@@ -195,15 +205,48 @@ class DualMesher {
     return sign;
   }
 
-  void add_vertices(int x, int y, int z) {
+  Patches patches(int x, int y, int z) const {
+    const int sign = signs(x, y, z);
+    if (joined_.empty()) return table_[sign];
+    const auto found = joined_.find(grid_.at(x, y, z));
+    return found == joined_.end() ? table_[sign] : patches_of(sign, found->second);
+  }
+
+  // A face with four crossings that lie in one patch on both of its sides is a tunnel with nothing but an edge round
+  // it, where four triangles would meet (Wenger, "Isosurfaces", 2013, 3.3.5): its inside corners are joined instead.
+  void join_pinched(int x, int y, int z) {
+    constexpr int kFar[3] = {1, 3, 5};  // the face towards the next cell along each axis; the one before it is opposite
     const int sign = signs(x, y, z);
     if (sign == 0 || sign == 255) return;
-    const int count = table_.count[sign];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3i next = Vector3i(x, y, z) + Vector3i::Unit(axis);
+      if (next[axis] + 1 >= grid_.size[axis]) continue;
+      if (!in_one_patch(sign, patches(x, y, z), kFar[axis])) continue;
+      if (!in_one_patch(signs(next.x(), next.y(), next.z()), patches(next.x(), next.y(), next.z()), kFar[axis] - 1))
+        continue;
+      joined_[grid_.at(x, y, z)] |= 1 << kFar[axis];
+      joined_[grid_.at(next.x(), next.y(), next.z())] |= 1 << (kFar[axis] - 1);
+    }
+  }
+
+  static bool in_one_patch(int sign, const Patches& patches, int f) {
+    const auto& face = kFaceCorners[f];
+    for (int i = 0; i < 4; ++i)
+      if ((sign >> face[i] & 1) == (sign >> face[(i + 1) % 4] & 1)) return false;
+    for (int i = 0; i < 3; ++i)
+      if (patches.of_edge[edge_between(face[i], face[i + 1])] != patches.of_edge[edge_between(face[0], face[3])])
+        return false;
+    return true;
+  }
+
+  void add_vertices(int x, int y, int z) {
+    const Patches cell = patches(x, y, z);
+    if (cell.count == 0) return;
     std::array<Vector3d, 4> sum;
     std::array<int, 4> crossings{};
     sum.fill(Vector3d::Zero());
     for (int e = 0; e < 12; ++e) {
-      const int patch = table_.patch[sign][e];
+      const int patch = cell.of_edge[e];
       if (patch < 0) continue;
       const int a = kEdgeCorners[e][0], b = kEdgeCorners[e][1];
       const double fa = grid_.values[grid_.at(x + (a & 1), y + (a >> 1 & 1), z + (a >> 2))];
@@ -214,12 +257,12 @@ class DualMesher {
       ++crossings[patch];
     }
     first_vertex_[grid_.at(x, y, z)] = static_cast<int>(mesh_.vertices.size());
-    for (int i = 0; i < count; ++i) mesh_.vertices.push_back(sum[i] / crossings[i]);
+    for (int i = 0; i < cell.count; ++i) mesh_.vertices.push_back(sum[i] / crossings[i]);
   }
 
   // The vertex of cell (x, y, z) for the patch that crosses edge e of that cell.
   int vertex(int x, int y, int z, int e) const {
-    return first_vertex_[grid_.at(x, y, z)] + table_.patch[signs(x, y, z)][e];
+    return first_vertex_[grid_.at(x, y, z)] + patches(x, y, z).of_edge[e];
   }
 
   // The three grid edges that leave sample (x, y, z), each shared by four cells.
@@ -247,7 +290,8 @@ class DualMesher {
   }
 
   const Grid grid_;
-  const PatchTable table_;
+  std::array<Patches, 256> table_;
+  std::map<size_t, int> joined_;  // cells at whose faces inside corners are joined: bits of the faces
   std::vector<int> first_vertex_;
   Mesh mesh_;
 };
