@@ -11,6 +11,7 @@ namespace dressform {
 namespace {
 
 constexpr double kEase = 0.014;    // between head and hood, m
+constexpr double kThroat = 0.6;    // slope at which the opening's edge goes back below the neck
 constexpr double kCorner = 0.035;  // of the opening's lower corners, m
 
 // What of the body is head: above the jaw's angle.
@@ -53,6 +54,7 @@ Hood::Hood(const Body& body, double neck_depth_m) {
   const Eigen::AlignedBox2d neck = neck_section(body, m.neck + 0.02);
   neck_ = {0, m.neck - 0.01 * size, neck.center().y() - 0.02 * size};
   neck_radius_ = 0.5 * neck.sizes().maxCoeff() + 0.022 * size;
+  throat_half_ = 0.085 * size;
   throat_z_ = neck.center().y() + 0.40 * neck.sizes().y();
   bottom_y_ = m.neck + 0.020 - neck_depth_m * size;
 }
@@ -64,9 +66,11 @@ double Hood::field(const Vector3d& p) const {
 }
 
 double Hood::opening(const Vector3d& p) const {
-  const double up = std::clamp((p.y() - bottom_y_) / (center_.y() - bottom_y_), 0.0, 1.3);
-  const double edge = throat_z_ + up * (brow_z_ - throat_z_);
-  return smooth_union(p.z() - edge, p.y() - bottom_y_, kCorner);
+  const double above = p.y() - neck_.y(), up = std::min(above / (center_.y() - neck_.y()), 1.3);
+  const double edge = above > 0 ? throat_z_ + up * (brow_z_ - throat_z_) : throat_z_ + kThroat * above;
+  const double above_neck = std::clamp(above / 0.12, 0.0, 1.0);
+  const double half_width = throat_half_ + above_neck * (radii_.x() + 0.05 - throat_half_);
+  return smooth_union(std::min(p.z() - edge, half_width - std::abs(p.x())), p.y() - bottom_y_, kCorner);
 }
 
 ClothPiece Hood::panel(double side) const {

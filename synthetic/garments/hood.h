@@ -23,6 +23,7 @@ class Hood {
   Vector3d neck_;             // middle of the neck's base
   double neck_radius_ = 0;    // of the hood there
   double bottom_y_ = 0;       // of the opening
+  double throat_half_ = 0;    // half its width there
   double brow_z_, throat_z_;  // of the opening's edge, at the head's middle and at the bottom
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "synthetic/body/section.h"
 
@@ -41,6 +42,22 @@ std::vector<Vector3d> dense(const SectionCurve& curve) {
     for (int k = 0; k < steps; ++k) points.push_back(a + (b - a) * k / steps);
   }
   return points;
+}
+
+std::vector<Vector2d> in_frame(const Tube::Frame& frame, const std::vector<Vector3d>& points) {
+  std::vector<Vector2d> result;
+  for (const Vector3d& p : points) result.push_back(to_frame(frame, p));
+  return result;
+}
+
+// Whether a closed curve winds about the origin.
+bool goes_round_axis(const std::vector<Vector2d>& curve) {
+  double turned = 0;
+  for (size_t i = 0; i < curve.size(); ++i) {
+    const Vector2d &a = curve[i], &b = curve[(i + 1) % curve.size()];
+    turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  }
+  return std::abs(turned) > M_PI;
 }
 
 }  // namespace
@@ -123,11 +140,13 @@ Outline arm_outline(const Body& body, double side) {
   return [&body, frame, thickness](double s) {
     const double limit = 1.35 * thickness + 0.004;
     std::vector<Vector2d> points;
-    for (const SectionCurve& curve : plane_section(body.mesh, frame.origin + s * frame.axis, frame.axis))
-      for (const Vector3d& p : dense(curve)) {
-        const Vector2d q = to_frame(frame, p);
-        if (q.norm() < limit) points.push_back(q);
-      }
+    for (const SectionCurve& curve : plane_section(body.mesh, frame.origin + s * frame.axis, frame.axis)) {
+      const std::vector<Vector2d> own = in_frame(frame, dense(curve));
+      const auto near = [limit](const Vector2d& q) { return q.norm() < limit; };
+      // Below the armpit the arm has a curve of its own, and what is near beside it is the trunk.
+      if (curve.closed && goes_round_axis(own) && std::all_of(own.begin(), own.end(), near)) return own;
+      std::copy_if(own.begin(), own.end(), std::back_inserter(points), near);
+    }
     return points;
   };
 }

@@ -169,7 +169,7 @@ ClothRest let_fall(Cloth& cloth, const Wearer& wearer, DrapeParams params, Seed 
 }
 
 // Lets the cloth fall in its final triangles. Where they cut through the body between their corners, the cloth is kept
-// further off, as long as that takes. Throws InputError where it does not help.
+// further off, as long as that takes, and held no more. Throws InputError where it does not help.
 ClothRest let_fall_clear(Cloth& cloth, Wearer wearer, const DrapeParams& params, const Mesh& body, Seed seed) {
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
@@ -179,7 +179,10 @@ ClothRest let_fall_clear(Cloth& cloth, Wearer wearer, const DrapeParams& params,
     std::set<int> corners;
     for (int t : crossing)
       for (int k = 0; k < 3; ++k) corners.insert(cloth.mesh.triangles[t][k]);
-    for (int i : corners) wearer.clearance_m[i] += 0.5 * kClearance;
+    for (int i : corners) {
+      wearer.clearance_m[i] += 0.5 * kClearance;
+      cloth.held[i] = 0;
+    }
   }
   throw InputError("garment.cloth_edge_m",
                    "found triangles too large to lie on this body without cutting through it; "
