@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kStep = 0.008;        // of the grid that the solid is sampled on, m
 constexpr double kClearance = 0.0045;  // of the cloth off the body, m
+constexpr double kCollarEdge = 0.012;  // a collar does not lie round the neck in larger triangles, m
 constexpr double kLayerGap = 0.0030;   // of cloth over cloth, m
 
 using ShapeMaker = GarmentShape (*)(const GarmentSpec&, const Body&, const std::vector<Garment>&, Seed);
@@ -242,7 +243,7 @@ Garment sewn_garment(const GarmentSpec& asked, const Body& body, const std::vect
   for (const double part : {1.0, 0.6, 0.3, 0.0}) {
     spec.ease_m = part * asked.ease_m;
     const GarmentShape shape = maker_of(spec.kind)(spec, body, inner, seed);
-    const double edge_m = 2 * spec.cloth_edge_m;
+    const double edge_m = 2 * (shape.collar ? std::min(spec.cloth_edge_m, kCollarEdge) : spec.cloth_edge_m);
     if (auto cut = put_on(shape, body, inner, edge_m))
       return draped(spec, shape, sewn_together(shape, std::move(*cut), body, edge_m), body, inner, seed);
   }
