@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/common/color_mapping.h"
+#include "pipeline/surface/depth_noise.h"
 
 namespace dressform {
 namespace {
@@ -196,6 +197,8 @@ void add_view(FilledGarment garment, const DepthView& view, const GarmentCloudPa
 void filter(GarmentCloud& cloud, const std::vector<char>& keep) {
   GarmentCloud kept;
   kept.dropped = cloud.dropped;
+  kept.noise_mm = cloud.noise_mm;
+  kept.smoothing = cloud.smoothing;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i]) {
       ++kept.dropped;
@@ -248,6 +251,16 @@ std::vector<char> sociable(const std::vector<Vector3d>& points, int neighbours, 
 
 }  // namespace
 
+namespace {
+
+// Averages over more leave less noise and more of the cloth's bends: the balance moves with the root of the noise.
+double smoothing_for(double noise_mm, const GarmentCloudParams& params) {
+  constexpr double kMost = 1.6;
+  return std::clamp(std::sqrt(noise_mm / params.usual_noise_mm), 1.0, kMost);
+}
+
+}  // namespace
+
 std::vector<DepthView> depth_views(const CaptureSession& session, const Calibration& calibration,
                                    const Registration& registration) {
   std::vector<DepthView> views;
@@ -296,12 +309,22 @@ GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled
   GarmentCloud result;
   const auto shots = filled.garments.find(garment);
   if (shots == filled.garments.end()) return result;
+  std::vector<std::pair<const DepthView*, const FilledGarment*>> seen;
+  std::vector<cv::Mat> depths;
   for (const DepthView& view : views) {
     const auto shot = shots->second.find(session.sensors[view.index]);
     if (shot == shots->second.end() || shot->second.depth_mm.size() != view.depth_mm.size()) continue;
-    FilledGarment seen = shot->second;
-    if (garment == "bottom") seen.depth_mm = extended_depth(seen.depth_mm, view, naked, limbs, params);
-    add_view(seen, view, params, result);
+    seen.emplace_back(&view, &shot->second);
+    depths.push_back(shot->second.depth_mm);
+  }
+  result.noise_mm = depth_noise_mm(depths, params.jump_mm);
+  result.smoothing = smoothing_for(result.noise_mm, params);
+  GarmentCloudParams own = params;
+  own.smooth_px *= result.smoothing;
+  for (const auto& [view, shot] : seen) {
+    FilledGarment each = *shot;
+    if (garment == "bottom") each.depth_mm = extended_depth(each.depth_mm, *view, naked, limbs, own);
+    add_view(each, *view, own, result);
   }
   filter(result, plausible(result, views, naked, limbs.crotch_y, params));
   filter(result, sociable(result.cloud.points, params.neighbours, params.outlier_sigma));

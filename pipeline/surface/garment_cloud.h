@@ -12,6 +12,7 @@ namespace dressform {
 
 struct GarmentCloudParams {
   double smooth_px = 1.2;        // sigma of the plane fit in the depth image; 0: depth as it is
+  double usual_noise_mm = 2.0;   // of depth for which smooth_px is meant
   double jump_mm = 25;           // neighbouring depth pixels that differ by more are an edge
   double mixed_mm = 6;           // pixels at the end of the cloth that are off its plane by more are dropped
   double least_cosine = 0.25;    // surface seen at a lower n.v is dropped
@@ -27,6 +28,8 @@ struct GarmentCloudParams {
 template <class V>
 void fields(V& v, GarmentCloudParams& p) {
   v("smooth_px", p.smooth_px, 0.0, 4.0, "px", "sigma of the local plane fit that takes the noise off the depth");
+  v("usual_noise_mm", p.usual_noise_mm, 0.1, 100.0, "mm",
+    "noise of depth up to which smooth_px and kernel_m hold; above it both grow with its root");
   v("jump_mm", p.jump_mm, 5.0, 100.0, "mm", "neighbouring depth pixels that differ by more are an edge");
   v("mixed_mm", p.mixed_mm, 1.0, 100.0, "mm", "pixels at the end of the cloth this far off its plane are dropped");
   v("least_cosine", p.least_cosine, 0.05, 0.9, "", "surface seen at a lower cosine to its normal is dropped");
@@ -44,6 +47,8 @@ struct GarmentCloud {
   PointCloud cloud;            // model frame, normals towards the sensors, sRGB colours, views = index of the sensor
   std::vector<float> weights;  // how far each point is to be believed, 0-1: facing and not made up
   int dropped = 0;             // points the outlier tests took away
+  double noise_mm = 0;         // of the garment's depth, all views; 0: too little to tell
+  double smoothing = 1;        // by which lengths to average over are multiplied: noisy depth needs longer ones
 };
 
 // A registered view as the outlier tests and the carving see it.

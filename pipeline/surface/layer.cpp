@@ -197,7 +197,7 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
   const CoveredBody body(naked, limbs, name, extent, params.margin_m);
   const Space space = make_space(body, cloud.cloud, params);
 
-  LatticeData data = plane_distances(space.lattice, cloud, params.kernel_m, params.reach_m);
+  LatticeData data = plane_distances(space.lattice, cloud, cloud.smoothing * params.kernel_m, params.reach_m);
   for (std::size_t i = 0; i < data.value.size(); ++i) data.value[i] = space.body_distance[i] - data.value[i];
   std::vector<float> ease = diffuse(space.lattice, data, space.domain, params.stiffness, params.sweeps);
   carve(space, body, views, ease, params, data);
