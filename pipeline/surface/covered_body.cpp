@@ -29,6 +29,27 @@ double upper_end(std::vector<double> values) {
   return -lower_end(std::move(values));
 }
 
+// Where the sleeve ends, along the arm: the end of the points that follow one another from the shoulder. Cloth that
+// hangs beside a hand is nearest to the arm, too, but bare arm lies between.
+double sleeve_end(const std::vector<double>& along) {
+  constexpr double kBin_m = 0.02;
+  constexpr int kFewest = 3;
+  std::vector<int> count;
+  const auto bin_of = [](double value) { return static_cast<std::size_t>(std::max(0.0, value) / kBin_m); };
+  for (const double value : along) {
+    const std::size_t bin = bin_of(value);
+    if (count.size() <= bin) count.resize(bin + 1, 0);
+    ++count[bin];
+  }
+  std::size_t end = 0;
+  while (end < count.size() && count[end] < kFewest) ++end;
+  while (end < count.size() && (count[end] >= kFewest || (end + 1 < count.size() && count[end + 1] >= kFewest))) ++end;
+  std::vector<double> sleeve;
+  for (const double value : along)
+    if (bin_of(value) < end) sleeve.push_back(value);
+  return sleeve.size() < 20 ? 0 : upper_end(std::move(sleeve));
+}
+
 // Height of an arm's axis at Limb::along, or of its root if that is lower.
 double lowest_of_arm(const Limb& arm, double along) {
   return std::min(arm.root.y(), arm.root.y() + arm.direction.y() * along);
@@ -229,7 +250,7 @@ GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud
   extent.bottom_y = lower_end(heights);
   for (int side = 0; side < 2; ++side) {
     extent.has_arm[side] = limbs.arm(side) && garment == "top";
-    extent.arm_along[side] = arms[side].size() < 20 ? 0 : upper_end(arms[side]);
+    extent.arm_along[side] = sleeve_end(arms[side]);
     extent.arm_free_along[side] = extent.arm_along[side] + kPastCuff_m;
     if (extent.has_arm[side])
       extent.arm_free_along[side] =

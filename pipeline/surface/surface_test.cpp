@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "pipeline/common/dressed_figure_for_tests.h"
+#include "pipeline/surface/covered_body.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -37,6 +38,24 @@ std::vector<double> errors(const Mesh& mesh, const std::string& garment, const f
   }
   std::sort(result.begin(), result.end());
   return result;
+}
+
+TEST(GarmentExtent, ClothBesideAHandIsNoSleeve) {
+  const Mesh body = figure::body_mesh();
+  const MeshQuery naked(body);
+  const BodyLimbs limbs = find_limbs(body);
+  PointCloud cloud;
+  for (double t = 0; t < 1; t += 0.01)
+    for (int i = 0; i < 30; ++i) {
+      const double angle = 2 * M_PI * i / 30;
+      const Vector3d round(0.06 * std::cos(angle), 0, 0.06 * std::sin(angle));
+      cloud.points.push_back(figure::shoulder(1) + 0.4 * t * (figure::hand(1) - figure::shoulder(1)) + round);
+      if (std::cos(angle) < 0) cloud.points.push_back(figure::hand(1) + Vector3d(0, 0.1 * t, 0) + round);
+    }
+  const GarmentExtent extent = garment_extent("top", cloud, naked, limbs);
+  const double hand = limbs.left_arm->along(figure::hand(1));
+  EXPECT_GT(extent.arm_along[0], 0.1);
+  EXPECT_LT(extent.arm_along[0], hand - 0.25);
 }
 
 class EverySurface : public ::testing::TestWithParam<std::string> {};
