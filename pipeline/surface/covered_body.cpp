@@ -262,6 +262,13 @@ GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud
   return extent;
 }
 
+GarmentExtent up_to_the_waist(GarmentExtent bottom, const GarmentExtent& top, const BodyLimbs& limbs) {
+  constexpr double kTouching_m = 0.05;
+  const bool hidden = top.bottom_y < bottom.top_y + kTouching_m && top.top_y > limbs.waist_y;
+  if (hidden) bottom.top_y = std::max(bottom.top_y, limbs.waist_y);
+  return bottom;
+}
+
 CoveredBody::CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment,
                          const GarmentExtent& extent, double margin_m)
     : naked_(naked),

@@ -24,6 +24,10 @@ struct GarmentExtent {
 GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud, const MeshQuery& naked,
                              const BodyLimbs& limbs);
 
+// Trousers and skirts whose upper end a top hides reach up to the body's waist, however long the top is: two legs alone
+// would be no garment.
+GarmentExtent up_to_the_waist(GarmentExtent bottom, const GarmentExtent& top, const BodyLimbs& limbs);
+
 // The part of the body that a garment goes round: the naked body without the limbs that stick out of it, and for
 // garments that are not forked a convex tube round both legs.
 class CoveredBody {

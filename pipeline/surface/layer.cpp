@@ -183,14 +183,6 @@ std::vector<float> solid(const Space& space, const CoveredBody& body, const std:
   return field;
 }
 
-// Trousers and skirts whose upper end a top hides reach up to the body's waist.
-GarmentExtent up_to_the_waist(GarmentExtent bottom, const GarmentExtent& top, const BodyLimbs& limbs) {
-  constexpr double kTouching_m = 0.05, kFarthest_m = 0.35;
-  const bool hidden = top.bottom_y < bottom.top_y + kTouching_m && top.top_y > bottom.top_y;
-  if (hidden && limbs.waist_y < bottom.top_y + kFarthest_m) bottom.top_y = std::max(bottom.top_y, limbs.waist_y);
-  return bottom;
-}
-
 std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud cloud, const GarmentExtent& extent,
                                           const std::optional<Outer>& outer, const std::vector<DepthView>& views,
                                           const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {

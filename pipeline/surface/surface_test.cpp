@@ -58,6 +58,23 @@ TEST(GarmentExtent, ClothBesideAHandIsNoSleeve) {
   EXPECT_LT(extent.arm_along[0], hand - 0.25);
 }
 
+TEST(GarmentExtent, HiddenBottomsReachTheWaistHoweverLongTheTop) {
+  BodyLimbs limbs;
+  limbs.waist_y = 1.05;
+  GarmentExtent top, bottom;
+  top.top_y = 1.45;
+  bottom.bottom_y = 0.3;
+  for (const double hem : {1.0, 0.75, 0.5}) {
+    top.bottom_y = hem;
+    bottom.top_y = hem + 0.01;
+    EXPECT_EQ(up_to_the_waist(bottom, top, limbs).top_y, 1.05) << hem;
+    EXPECT_EQ(up_to_the_waist(bottom, top, limbs).bottom_y, 0.3);
+  }
+  bottom.top_y = 1.02;  // below the waist by its own cut, skin above it
+  top.bottom_y = 1.2;
+  EXPECT_EQ(up_to_the_waist(bottom, top, limbs).top_y, 1.02);
+}
+
 class EverySurface : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySurface, IsClosedOnePieceAndCloseToTheCloth) {
