@@ -12,7 +12,7 @@
 namespace dressform {
 
 struct DepthEdgeParams {
-  double least_gap_m = 0.010;      // cloth nearer to the skin is not told from it by depth
+  double least_gap_m = 0.020;      // cloth nearer to the skin is not told from it by depth that errs by bounced light
   int inside_px = 2;               // depth pixels that have to show cloth on one side of an edge ...
   int outside_px = 2;              // ... and what lies behind it on the other
   int most_missing_px = 4;         // without depth in between
