@@ -47,7 +47,7 @@ std::vector<Vector3d> ring(double radius_x, double radius_z, double y) {
 }
 
 TruthGarment garment(const Mesh& mesh, int seed) {
-  return {mesh, std::vector<std::uint8_t>(mesh.vertices.size(), 2), textured(mesh, seed)};
+  return {mesh, std::vector<std::uint8_t>(mesh.vertices.size(), 2), textured(mesh, seed), {}};
 }
 
 Mesh bottom_mesh() { return tube(0.21, 0.15, {0, 0, 0}, 0.5, 1.2, 64, 40, false); }
