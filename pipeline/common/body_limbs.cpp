@@ -271,8 +271,11 @@ const Limb* BodyLimbs::leg(int side) const {
 }
 
 BodyLimbs find_limbs(const Mesh& body, const std::optional<Vector3d>& front_hint) {
+  return find_limbs(body, horizontal_sections(body), front_hint);
+}
+
+BodyLimbs find_limbs(const Mesh& body, const Sections& sections, const std::optional<Vector3d>& front_hint) {
   if (body.triangles.empty()) throw InputError("naked body", "the mesh has no triangle; expected a closed body");
-  const Sections sections = horizontal_sections(body);
   BodyLimbs limbs;
   limbs.floor_y = sections.first_y;
   limbs.top_y = sections.y(static_cast<int>(sections.levels.size()) - 1);

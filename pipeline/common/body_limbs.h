@@ -58,5 +58,7 @@ struct BodyLimbs {
 // sign is used where the legs tell the sideways direction). Limbs that the sections do not show apart are absent.
 // Throws InputError for a mesh without triangles.
 BodyLimbs find_limbs(const Mesh& body, const std::optional<Vector3d>& front_hint = {});
+// The same, with the body's horizontal_sections at hand.
+BodyLimbs find_limbs(const Mesh& body, const Sections& sections, const std::optional<Vector3d>& front_hint = {});
 
 }  // namespace dressform

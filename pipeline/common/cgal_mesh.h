@@ -9,10 +9,8 @@ namespace dressform {
 using CgalKernel = CGAL::Simple_cartesian<double>;
 using CgalSurface = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
-// Triangles that would make the surface no manifold are left out: it then has fewer faces than the mesh.
+// scenes/surface_mesh.h for this kernel.
 CgalSurface to_cgal(const Mesh& mesh);
-
-// Vertices and faces in the surface's order, without what was removed from it.
 Mesh from_cgal(CgalSurface surface);
 
 }  // namespace dressform

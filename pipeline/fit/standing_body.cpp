@@ -212,8 +212,8 @@ TrunkOutline StandingBody::outline_at(double y) const {
 StandingBody analyse_body(const Mesh& mesh, const std::optional<Vector3d>& front_hint) {
   StandingBody body;
   body.mesh = mesh;
-  body.limbs = find_limbs(mesh, front_hint);
   body.sections = horizontal_sections(mesh);
+  body.limbs = find_limbs(mesh, body.sections, front_hint);
   const double floor = body.limbs.floor_y;
   body.stature = body.limbs.top_y - floor;
   body.axis = trunk_axis(body, floor + 0.52 * body.stature, floor + 0.64 * body.stature);

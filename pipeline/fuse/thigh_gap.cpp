@@ -90,8 +90,9 @@ std::optional<Slit> find_slit(const Sections& sections, const BodyLimbs& limbs) 
 }  // namespace
 
 bool part_thighs(const Lattice& lattice, const Mesh& surface, double gap_m, std::vector<float>& field) {
-  const BodyLimbs limbs = find_limbs(surface);
-  const auto slit = find_slit(horizontal_sections(surface), limbs);
+  const Sections sections = horizontal_sections(surface);
+  const BodyLimbs limbs = find_limbs(surface, sections);
+  const auto slit = find_slit(sections, limbs);
   if (!slit) return false;
   std::vector<char> taken(field.size(), 0);
   tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {

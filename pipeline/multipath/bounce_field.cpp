@@ -9,11 +9,10 @@
 namespace dressform {
 namespace {
 
-constexpr double kEmitter = 0.045;      // right of the lens, metres
-constexpr float kOneSurface = 0.05f;    // largest step in depth within one surface, in parts of the depth
-constexpr float kOwnNormal = 5;         // weight of a cell's own normal among its neighbours' of 1
-constexpr double kLeastCovered = 0.25;  // of a cell's pixels
-constexpr double kLeastCosine = 0.1;
+constexpr double kEmitter = 0.045;                // right of the lens, metres
+constexpr float kOneSurface = 0.05f;              // largest step in depth within one surface, in parts of the depth
+constexpr float kOwnNormal = 5;                   // weight of a cell's own normal among its neighbours' of 1
+constexpr double kLeastCovered = 0.25;            // of a cell's pixels
 constexpr double kLargestError = 0.06;            // metres: what comes out larger is a wrong guess at the geometry
 constexpr double kMetresPerTurn = 2.0833333 / 3;  // the driver's mean over the three frequencies' cycles
 
@@ -158,7 +157,7 @@ double lit_cosine(double x, double y, double z, const Eigen::Vector3d& normal) {
 
 double direct_light(double x, double y, double z, double cosine) {
   const double way = from_emitter_m(x, y, z);
-  return profile_of(stretch_of(x, y, z)) * std::max(kLeastCosine, cosine) / (way * way);
+  return profile_of(stretch_of(x, y, z)) * std::max(kLeastLitCosine, cosine) / (way * way);
 }
 
 double light_per_count(double x, double y, double z, double signal_counts) {

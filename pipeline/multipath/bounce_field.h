@@ -43,8 +43,11 @@ struct BouncedLight {
 // between. Fuchs, ICPR 2010; Jimenez et al., Image and Vision Computing 2014.
 BouncedLight bounced_light(const SurfaceCells& cells, const std::vector<float>& albedo);
 
+constexpr double kLeastLitCosine = 0.1;  // below, direct light is too weak to divide by
+
 // What the emitter sends straight to a surface and the lens takes from it, in the units of BouncedLight: at a place
-// (metres, sensor frame) whose normal is `cosine` off the way to the emitter. Not below what is too weak to divide by.
+// (metres, sensor frame) whose normal is `cosine` off the way to the emitter. The cosine counts as kLeastLitCosine at
+// least.
 double direct_light(double x, double y, double z, double cosine);
 double lit_cosine(double x, double y, double z, const Eigen::Vector3d& normal);
 // Amplitude, in the units of BouncedLight, of an infrared value of 1 count on a white surface.

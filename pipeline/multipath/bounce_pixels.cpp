@@ -20,7 +20,8 @@ std::vector<float> surrounding_albedo(const SurfaceCells& cells, const BouncedLi
   for (int i = 0; i < cells.count(); ++i) {
     if (cells.z[i] == 0) continue;
     const double x = cells.x[i], y = cells.y[i], z = cells.z[i];
-    const double cosine = std::max(0.1, lit_cosine(x, y, z, {cells.normal_x[i], cells.normal_y[i], cells.normal_z[i]}));
+    const double cosine =
+        std::max(kLeastLitCosine, lit_cosine(x, y, z, {cells.normal_x[i], cells.normal_y[i], cells.normal_z[i]}));
     const double weight = cosine * cosine;
     amplitude[i] = static_cast<float>(weight * cells.ir_counts[i] * light_per_count(x, y, z, signal_counts));
     lit[i] = static_cast<float>(
@@ -122,7 +123,7 @@ class Pixels {
   }
 
   double direct(int u, int v, double x, double y, double z, const Surroundings& about) const {
-    const double lit = std::clamp(cosine(u, v, x, y, z), 0.1, 1.0), geometric = direct_light(x, y, z, lit);
+    const double lit = std::clamp(cosine(u, v, x, y, z), kLeastLitCosine, 1.0), geometric = direct_light(x, y, z, lit);
     if (pixels_.ir.empty() || about.albedo <= 0) return geometric;
     const auto counts = pixels_.ir.at<std::uint16_t>(v, u);
     if (counts == 0 || counts == kSaturated) return geometric;

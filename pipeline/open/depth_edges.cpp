@@ -23,20 +23,10 @@ Vector3d ray_of(const DepthView& view, double x, double y) {
 // One view and what is known of it besides its depth.
 struct SeenView {
   const DepthView& depth;
-  cv::Mat labels;    // of the colour picture; may be empty
+  cv::Mat labels;    // at the depth pixels; empty where the colour picture has none
   cv::Mat naked_mm;  // the naked shot, true depth; empty if there is none from the same place
 
-  std::optional<Label> label(int x, int y, double z_m) const {
-    if (!depth.sensor->color || labels.empty()) return {};
-    const cv::Vec2f& ray = depth.rays.at<cv::Vec2f>(y, x);
-    const Vector3d in_color = depth.sensor->color_from_ir * (Vector3d(ray[0], ray[1], 1) * z_m);
-    if (in_color.z() < 0.1) return {};
-    const Vector2d pixel = depth.sensor->color->project(in_color);
-    const int u = static_cast<int>(std::lround(std::clamp(pixel.x(), -2.0, 1e5)));
-    const int v = static_cast<int>(std::lround(std::clamp(pixel.y(), -2.0, 1e5)));
-    if (u < 0 || v < 0 || u >= labels.cols || v >= labels.rows) return {};
-    return static_cast<Label>(labels.at<uchar>(v, u));
-  }
+  Label label(int x, int y) const { return labels.empty() ? Label::none : static_cast<Label>(labels.at<uchar>(y, x)); }
 };
 
 // Whether bare skin has the same depth in both shots.
@@ -45,7 +35,7 @@ bool stood_still(const SeenView& view, const cv::Mat& naked_mm) {
   for (int y = 0; y < naked_mm.rows; ++y)
     for (int x = 0; x < naked_mm.cols; ++x) {
       const float dressed = view.depth.depth_mm.at<float>(y, x), naked = naked_mm.at<float>(y, x);
-      if (dressed <= 0 || naked <= 0 || view.label(x, y, dressed / 1000.0) != Label::skin) continue;
+      if (dressed <= 0 || naked <= 0 || view.label(x, y) != Label::skin) continue;
       shifts.push_back(std::abs(dressed - naked));
     }
   if (shifts.size() < kFewest) return false;
@@ -57,7 +47,8 @@ SeenView seen_view(const DepthView& depth, const CaptureSession& session, const 
   const std::string& name = session.sensors[depth.index];
   SeenView view{depth, {}, {}};
   const auto labels = segmentation.labels.find(name);
-  if (labels != segmentation.labels.end()) view.labels = labels->second;
+  if (labels != segmentation.labels.end() && depth.sensor->color && !labels->second.empty())
+    view.labels = to_depth(labels->second, color_of_depth_pixels(depth.depth_mm, *depth.sensor));
   const auto shot = session.naked.find(name);
   if (shot == session.naked.end() || shot->second.depth_mm.size() != depth.depth_mm.size()) return view;
   const cv::Mat naked_mm = corrected_depth_mm(shot->second.depth_mm, *depth.sensor);
@@ -74,7 +65,7 @@ cv::Mat cover(const SeenView& view, Label other, const MeshQuery& closed, const 
   for (int y = 0; y < part.rows; ++y)
     for (int x = 0; x < part.cols; ++x) {
       const double z = view.depth.depth_mm.at<float>(y, x) / 1000.0;
-      if (!(z > 0) || view.label(x, y, z) == other) continue;
+      if (!(z > 0) || view.label(x, y) == other) continue;
       const Vector3d ray = ray_of(view.depth, x, y);  // one metre deep
       const auto cloth = closed.first_hit(centre, ray);
       if (!cloth) continue;

@@ -30,11 +30,6 @@ Place place(double angle, int count) {
   return {knot, at - knot};
 }
 
-double tukey(double residual, double scale) {
-  const double u = residual / (4.685 * scale);
-  return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
-}
-
 Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::VectorXd& weights, double smoothness,
                       double flatness, const RimCurve& base, int count) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
@@ -78,7 +73,7 @@ double votes(const std::vector<std::vector<RimSample>>& parts, const FlatCut& cu
   for (const auto& part : parts) {
     double most = 0, total = 0;
     for (const RimSample& s : part) {
-      const double w = s.weight * tukey(s.along - cut.at(s.angle), scale / 2);
+      const double w = s.weight * tukey_weight(s.along - cut.at(s.angle), scale / 2);
       most = std::max(most, w);
       total += w;
     }
@@ -106,10 +101,10 @@ FlatCut refined(const std::vector<std::vector<RimSample>>& parts, const FlatCut&
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto& part : parts) {
     double total = 0;
-    for (const RimSample& s : part) total += s.weight * tukey(s.along - cut.at(s.angle), scale);
+    for (const RimSample& s : part) total += s.weight * tukey_weight(s.along - cut.at(s.angle), scale);
     if (total <= 1e-9) continue;
     for (const RimSample& s : part) {
-      const double w = s.weight * tukey(s.along - cut.at(s.angle), scale) / std::max(1.0, total);
+      const double w = s.weight * tukey_weight(s.along - cut.at(s.angle), scale) / std::max(1.0, total);
       const Eigen::Vector3d row(1, std::cos(s.angle), std::sin(s.angle));
       normal += w * row * row.transpose();
       right += w * s.along * row;
@@ -120,6 +115,13 @@ FlatCut refined(const std::vector<std::vector<RimSample>>& parts, const FlatCut&
 }
 
 }  // namespace
+
+double rim_knot_angle(int knot, int count) { return -M_PI + 2 * M_PI * knot / count; }
+
+double tukey_weight(double residual, double scale) {
+  const double u = residual / (4.685 * scale);
+  return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+}
 
 double FlatCut::at(double angle) const { return middle + tilt_cos * std::cos(angle) + tilt_sin * std::sin(angle); }
 
@@ -165,18 +167,17 @@ RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& para
   if (samples.empty()) return curve;
   const int count = params.knots;
   const FlatCut flat = fit_flat_cut(samples, 2 * params.scale_m);
-  const auto knot_angle = [count](int i) { return -M_PI + 2 * M_PI * i / count; };
   const RimCurve path{best_rim_path(samples, flat, {params.scale_m, params.bend_price})};
-  for (int i = 0; i < count; ++i) curve.knots.push_back(path.at(knot_angle(i)));
+  for (int i = 0; i < count; ++i) curve.knots.push_back(path.at(rim_knot_angle(i, count)));
   Eigen::VectorXd weights(samples.size());
   for (int round = 0; round < params.rounds; ++round) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const RimSample& s = samples[i];
       const bool near = std::abs(s.along - path.at(s.angle)) < kOffPath * params.scale_m;  // no creeping towards strays
-      weights[i] = near ? s.weight * tukey(s.along - curve.at(s.angle), params.scale_m) : 0;
+      weights[i] = near ? s.weight * tukey_weight(s.along - curve.at(s.angle), params.scale_m) : 0;
     }
     const Eigen::VectorXd off = solve(samples, weights, params.smoothness, params.flatness, path, count);
-    for (int i = 0; i < count; ++i) curve.knots[i] = path.at(knot_angle(i)) + off[i];
+    for (int i = 0; i < count; ++i) curve.knots[i] = path.at(rim_knot_angle(i, count)) + off[i];
   }
   std::vector<char> covered(36, 0);
   double squares = 0;

@@ -30,6 +30,12 @@ struct RimFitParams {
   int rounds = 4;
 };
 
+// Where knot `knot` of `count` round an opening stands, radians.
+double rim_knot_angle(int knot, int count);
+
+// Weight, 0 to 1, of a residual in robust fits: Tukey's biweight, 0 from 4.685 scales on.
+double tukey_weight(double residual, double scale);
+
 // A flat cut through a tube: along = middle + tilt_cos cos(angle) + tilt_sin sin(angle).
 struct FlatCut {
   double middle = 0, tilt_cos = 0, tilt_sin = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/common/distance_transform.h"
+
 namespace dressform {
 namespace {
 
@@ -11,13 +13,6 @@ constexpr double kBin_m = 0.002;
 constexpr double kReach_m = 0.2;  // furthest from the flat cut
 constexpr int kSteepest = 13;     // bins from one knot to the next
 constexpr int kSlopes = 2 * kSteepest + 1;
-
-double tukey(double residual, double scale) {
-  const double u = residual / (4.685 * scale);
-  return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
-}
-
-double knot_angle(int knot) { return -M_PI + 2 * M_PI * knot / kRimPathKnots; }
 
 int nearest_knot(double angle) {
   const int knot = static_cast<int>(std::lround((angle + M_PI) / (2 * M_PI) * kRimPathKnots));
@@ -68,7 +63,7 @@ class PathGrid {
       const double off = s.along - flat.at(s.angle), worth = s.weight / std::max(kFullRimKnot, total[knot]);
       for (int bin = 0; bin < bins_; ++bin)
         price_[static_cast<std::size_t>(knot) * bins_ + bin] -=
-            worth * tukey(off - (bin - reach_) * kBin_m, params_.scale_m);
+            worth * tukey_weight(off - (bin - reach_) * kBin_m, params_.scale_m);
     }
     for (int knot = 0; knot < kRimPathKnots; ++knot)
       for (int bin = 0; bin < bins_; ++bin)
@@ -84,17 +79,8 @@ class PathGrid {
     for (int bin = 0; bin < bins_; ++bin) {
       double* row = &spread[state(bin, 0)];
       unsigned char* source = &best[state(bin, 0)];
-      for (int slope = 0; slope < kSlopes; ++slope) {
-        row[slope] = cost[state(bin, slope)];
-        source[slope] = static_cast<unsigned char>(slope);
-      }
-      const auto relax = [&](int slope, int neighbour) {
-        if (row[neighbour] + kink >= row[slope]) return;
-        row[slope] = row[neighbour] + kink;
-        source[slope] = source[neighbour];
-      };
-      for (int slope = 1; slope < kSlopes; ++slope) relax(slope, slope - 1);
-      for (int slope = kSlopes - 2; slope >= 0; --slope) relax(slope, slope + 1);
+      std::copy_n(&cost[state(bin, 0)], kSlopes, row);
+      spread_costs(row, source, kSlopes, kink);
     }
     for (int bin = 0; bin < bins_; ++bin)
       for (int slope = 0; slope < kSlopes; ++slope) {
@@ -116,7 +102,8 @@ std::vector<double> best_rim_path(const std::vector<RimSample>& samples, const F
                                   const RimPathParams& params) {
   std::vector<double> along;
   const std::vector<int> path = PathGrid(samples, flat, params).best();
-  for (int knot = 0; knot < kRimPathKnots; ++knot) along.push_back(flat.at(knot_angle(knot)) + path[knot] * kBin_m);
+  for (int knot = 0; knot < kRimPathKnots; ++knot)
+    along.push_back(flat.at(rim_knot_angle(knot, kRimPathKnots)) + path[knot] * kBin_m);
   return along;
 }
 

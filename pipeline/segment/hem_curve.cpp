@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "pipeline/common/distance_transform.h"
+
 namespace dressform {
 namespace {
 
@@ -21,19 +23,6 @@ std::vector<double> column_costs(const cv::Mat& nats, int column) {
   return cost;
 }
 
-// best[h] = min over g of cost[g] + price |h - g|; from[h] = that g (Felzenszwalb and Huttenlocher, 2012).
-void spread(std::vector<double>& cost, std::vector<int>& from, double price) {
-  const int count = static_cast<int>(cost.size());
-  for (int h = 0; h < count; ++h) from[h] = h;
-  const auto relax = [&](int h, int neighbour) {
-    if (cost[neighbour] + price >= cost[h]) return;
-    cost[h] = cost[neighbour] + price;
-    from[h] = from[neighbour];
-  };
-  for (int h = 1; h < count; ++h) relax(h, h - 1);
-  for (int h = count - 2; h >= 0; --h) relax(h, h + 1);
-}
-
 }  // namespace
 
 std::vector<int> trace_hem(const cv::Mat& nats, double row_price) {
@@ -42,7 +31,7 @@ std::vector<int> trace_hem(const cv::Mat& nats, double row_price) {
   std::vector<std::vector<int>> from;
   for (int k = 0; k < rounds * columns; ++k) {
     from.emplace_back(best.size());
-    spread(best, from.back(), row_price);
+    spread_costs(best.data(), from.back().data(), static_cast<int>(best.size()), row_price);
     const auto own = column_costs(nats, k % columns);
     for (std::size_t h = 0; h < best.size(); ++h) best[h] += own[h];
   }

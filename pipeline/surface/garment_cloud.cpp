@@ -249,10 +249,6 @@ std::vector<char> sociable(const std::vector<Vector3d>& points, int neighbours, 
   return keep;
 }
 
-}  // namespace
-
-namespace {
-
 // Averages over more leave less noise and more of the cloth's bends: the balance moves with the root of the noise.
 double smoothing_for(double noise_mm, const GarmentCloudParams& params) {
   constexpr double kMost = 1.6;

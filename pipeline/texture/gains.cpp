@@ -14,8 +14,6 @@ float level_of(float linear) {
   return 255.f * (linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f);
 }
 
-bool usable(float level) { return level >= kDarkest && level <= kBrightest; }
-
 float median(std::vector<float> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
   return values[values.size() / 2];
@@ -32,7 +30,8 @@ void Overlaps::add(const std::vector<ColorView>& views, const VertexSamples& sam
         if (std::min(samples.facing(v, i), samples.facing(v, j)) < params.least_facing) continue;
         for (int c = 0; c < 3; ++c) {
           const float a = samples.low[i](v, c), b = samples.low[j](v, c);
-          if (usable(a) && usable(b)) ratios[c].push_back(std::log(linear_of_level(a)) - std::log(linear_of_level(b)));
+          if (is_usable_level(a) && is_usable_level(b))
+            ratios[c].push_back(std::log(linear_of_level(a)) - std::log(linear_of_level(b)));
         }
       }
     }
@@ -65,6 +64,8 @@ std::map<std::string, cv::Vec3f> Overlaps::gains(const GainParams& params) const
   }
   return gains;
 }
+
+bool is_usable_level(float level) { return level >= kDarkest && level <= kBrightest; }
 
 float linear_of_level(float level) {
   const float c = level / 255.f;

@@ -25,6 +25,9 @@ class Overlaps {
   std::map<Pair, std::array<std::vector<float>, 3>> log_ratios_;
 };
 
+// Whether a level (0-255, sRGB) says much of a ratio of light: neither near black nor clipped.
+bool is_usable_level(float level);
+
 // Linear light (0-1) of a level (0-255, sRGB).
 float linear_of_level(float level);
 

@@ -15,13 +15,12 @@ namespace dressform {
 namespace {
 
 constexpr std::size_t kLeastReadings = 1000;
-constexpr std::size_t kPlaces = 12000;            // about as many vertices are looked at in every view
-constexpr double kLeastFacing = 0.35;             // more oblique ones are near outlines, and glossy
-constexpr double kOffSurface_m = 1e-3;            // where rays to the camera start
-constexpr double kBlurPx = 1.5;                   // over which colour is averaged: the noise
-constexpr double kDarkest = 8, kBrightest = 247;  // levels
-constexpr int kPasses = 8;                        // of reweighting
-constexpr double kScale = 0.04;                   // of the log's residual, in Cauchy's weight
+constexpr std::size_t kPlaces = 12000;  // about as many vertices are looked at in every view
+constexpr double kLeastFacing = 0.35;   // more oblique ones are near outlines, and glossy
+constexpr double kOffSurface_m = 1e-3;  // where rays to the camera start
+constexpr double kBlurPx = 1.5;         // over which colour is averaged: the noise
+constexpr int kPasses = 8;              // of reweighting
+constexpr double kScale = 0.04;         // of the log's residual, in Cauchy's weight
 constexpr double kPull = 1e-6;
 constexpr double kLeastExplained = 0.5;
 constexpr double kMiddle_m = 1;    // height where its terms are zero
@@ -50,7 +49,7 @@ std::optional<Eigen::RowVector3d> log_level_at(const cv::Mat& levels, const Vect
   const cv::Vec3f level = linear3(levels, pixel);
   Eigen::RowVector3d logs;
   for (int c = 0; c < 3; ++c) {
-    if (level[c] < kDarkest || level[c] > kBrightest) return {};
+    if (!is_usable_level(level[c])) return {};
     logs[c] = std::log(linear_of_level(level[c]));
   }
   return logs;

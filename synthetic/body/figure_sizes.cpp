@@ -27,15 +27,6 @@ double leave(const Field& field, const Vector3d& origin, const Vector3d& directi
   return inside + (outside - inside) * inside_value / (inside_value - outside_value);
 }
 
-bool goes_round_origin(const std::vector<Vector2d>& polygon) {
-  bool odd = false;
-  for (size_t i = 0, n = polygon.size(); i < n; ++i) {
-    const Vector2d &a = polygon[i], &b = polygon[(i + 1) % n];
-    if ((a.y() > 0) != (b.y() > 0) && a.x() + (b.x() - a.x()) * a.y() / (a.y() - b.y()) > 0) odd = !odd;
-  }
-  return odd;
-}
-
 struct PlaneSize {
   double girth = 0, breadth = 0, depth = 0;
 };

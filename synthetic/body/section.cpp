@@ -142,6 +142,15 @@ std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
   return hull;
 }
 
+bool goes_round_origin(const std::vector<Vector2d>& polygon) {
+  bool odd = false;
+  for (size_t i = 0, n = polygon.size(); i < n; ++i) {
+    const Vector2d &a = polygon[i], &b = polygon[(i + 1) % n];
+    if ((a.y() > 0) != (b.y() > 0) && a.x() + (b.x() - a.x()) * a.y() / (a.y() - b.y()) > 0) odd = !odd;
+  }
+  return odd;
+}
+
 double polygon_length(const std::vector<Vector2d>& closed) {
   double sum = 0;
   for (size_t i = 0; i < closed.size(); ++i) sum += (closed[(i + 1) % closed.size()] - closed[i]).norm();

@@ -33,6 +33,9 @@ std::vector<Polygon> torso_part(const std::vector<Polygon>& polygons);
 // Convex hull, counter-clockwise (x to the right, z up), without repeated or collinear points (Andrew's chain).
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> points);
 
+// Whether the origin lies inside a closed curve.
+bool goes_round_origin(const std::vector<Vector2d>& polygon);
+
 double polygon_length(const std::vector<Vector2d>& closed);
 
 }  // namespace dressform

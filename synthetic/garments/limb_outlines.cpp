@@ -50,16 +50,6 @@ std::vector<Vector2d> in_frame(const Tube::Frame& frame, const std::vector<Vecto
   return result;
 }
 
-// Whether a closed curve winds about the origin.
-bool goes_round_axis(const std::vector<Vector2d>& curve) {
-  double turned = 0;
-  for (size_t i = 0; i < curve.size(); ++i) {
-    const Vector2d &a = curve[i], &b = curve[(i + 1) % curve.size()];
-    turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-  }
-  return std::abs(turned) > M_PI;
-}
-
 }  // namespace
 
 Tube::Frame torso_frame() { return upright_frame(Vector3d::Zero(), Vector3d::UnitZ()); }
@@ -144,7 +134,7 @@ Outline arm_outline(const Body& body, double side) {
       const std::vector<Vector2d> own = in_frame(frame, dense(curve));
       const auto near = [limit](const Vector2d& q) { return q.norm() < limit; };
       // Below the armpit the arm has a curve of its own, and what is near beside it is the trunk.
-      if (curve.closed && goes_round_axis(own) && std::all_of(own.begin(), own.end(), near)) return own;
+      if (curve.closed && goes_round_origin(own) && std::all_of(own.begin(), own.end(), near)) return own;
       std::copy_if(own.begin(), own.end(), std::back_inserter(points), near);
     }
     return points;
