@@ -118,6 +118,13 @@ void smooth_normals(SurfaceCells& cells) {
     }
 }
 
+// A cell that the picture's border cuts is moved back into it: a single row of pixels has no slope.
+cv::Rect inside(const cv::Rect& cell, const cv::Size& picture) {
+  return cv::Rect(std::min(cell.x, std::max(0, picture.width - cell.width)),
+                  std::min(cell.y, std::max(0, picture.height - cell.height)), cell.width, cell.height) &
+         cv::Rect({}, picture);
+}
+
 // What the emitter sends into a direction: the lens loses four powers of the cosine to the axis, lens and emitter
 // together three.
 double profile_of(double stretch) { return stretch; }
@@ -132,20 +139,23 @@ double lit_cosine_of(const SurfaceCells& cells, int i) {
 SurfaceCells surface_cells(const cv::Mat& depth_mm, const cv::Mat& ir, const DepthOptics& optics) {
   SurfaceCells cells;
   cells.edge_px = std::max(4, (depth_mm.cols + 32) / 64);
-  cells.columns = depth_mm.cols / cells.edge_px;
-  cells.rows = depth_mm.rows / cells.edge_px;
+  cells.columns = (depth_mm.cols + cells.edge_px - 1) / cells.edge_px;  // the last are narrower
+  cells.rows = (depth_mm.rows + cells.edge_px - 1) / cells.edge_px;
   for (auto* each :
        {&cells.x, &cells.y, &cells.z, &cells.normal_x, &cells.normal_y, &cells.normal_z, &cells.solid_angle})
     each->assign(cells.count(), 0.0f);
   if (!ir.empty()) cells.ir_counts.assign(cells.count(), 0.0f);
   std::vector<float> buffer;
   for (int i = 0; i < cells.count(); ++i) {
-    const cv::Rect cell(i % cells.columns * cells.edge_px, i / cells.columns * cells.edge_px, cells.edge_px,
-                        cells.edge_px);
+    const cv::Point corner(i % cells.columns * cells.edge_px, i / cells.columns * cells.edge_px);
+    const cv::Rect cell = inside({corner, cv::Size(cells.edge_px, cells.edge_px)}, depth_mm.size());
     const float median = median_depth(depth_mm, cell, buffer);
     if (median == 0) continue;
     const CellFit fit = sums_of(depth_mm, ir, optics, cell, median);
-    if (fit.n >= std::max(3.0, kLeastCovered * cell.area())) fill_cell(fit, optics.calibration.ir, i, cells);
+    if (fit.n < std::max(3.0, kLeastCovered * cell.area())) continue;
+    fill_cell(fit, optics.calibration.ir, i, cells);
+    const cv::Rect own = cv::Rect(corner, cell.br());  // less than the cell's at the picture's border
+    cells.solid_angle[i] *= static_cast<float>(own.area()) / static_cast<float>(cell.area());
   }
   smooth_normals(cells);
   return cells;

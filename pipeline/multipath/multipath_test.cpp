@@ -46,6 +46,24 @@ TEST(Multipath, APlaneDoesNotLightItselfEvenWithNoise) {
   for (const float error : errors_of(surface_cells(plane, {}, optics))) EXPECT_LT(std::abs(error), 2e-4);
 }
 
+TEST(Multipath, CellsCoverPicturesOfAnySize) {
+  // The lowest rows hold the floor that sends most.
+  for (const double scale : {1.0, 0.6, 0.37, 0.25}) {
+    SensorCalibration sensor = test_scene::kinect(scale);
+    sensor.ir.distortion = {};
+    const DepthOptics optics(sensor);
+    const cv::Mat wall = image_of(optics, [](double, double, int, int) { return 2.0; });
+    double whole = 0, seen = 0;
+    for (int v = 0; v < wall.rows; ++v)
+      for (int u = 0; u < wall.cols; ++u) {
+        const auto& ray = optics.rays.at<cv::Vec2d>(v, u);
+        whole += std::pow(1 + ray.dot(ray), -1.5) / (sensor.ir.fx * sensor.ir.fy);
+      }
+    for (const float angle : surface_cells(wall, {}, optics).solid_angle) seen += angle;
+    EXPECT_NEAR(seen, whole, 0.002 * whole) << "scale " << scale;
+  }
+}
+
 // Light from the other wall, summed up finely; as the driver decodes it. Millimetres along the axis.
 double error_in_the_corner(const Vector3d& at, const Vector3d& normal) {
   const Vector3d emitter(0.045, 0, 0);

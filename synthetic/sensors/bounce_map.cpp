@@ -8,8 +8,9 @@
 namespace dressform {
 namespace {
 
-constexpr int cell = 8;   // pixels between the points that gather
-constexpr int patch = 8;  // pixels along the edge of a patch that sends on: 5 cm at 2 m, coarser ones lose what is near
+// Pixels between the points that gather, and along the edge of a patch that sends on: 5 cm at 2 m, coarser ones lose
+// what is near, whatever the resolution of the picture.
+int edge_px(int width) { return std::max(4, (width + 32) / 64); }
 constexpr float one_surface = 0.05f;  // largest step in depth within a cell of one surface, in parts of the depth
 
 // Hits at a grid of pixels, row by row.
@@ -50,7 +51,7 @@ tof::SurfacePoints points_of(const GridHits& hits) {
   return points;
 }
 
-tof::LitPatches patches_of(const IrView& view, const GridHits& hits, double falloff, double strength) {
+tof::LitPatches patches_of(const IrView& view, const GridHits& hits, int patch, double falloff, double strength) {
   tof::LitPatches patches{points_of(hits), {}, {}};
   const int count = hits.columns * hits.rows;
   patches.weight.assign(count, 0.0f);
@@ -62,7 +63,9 @@ tof::LitPatches patches_of(const IrView& view, const GridHits& hits, double fall
     if (z <= 0 || packet.chrome[lane]) continue;
     const double stretch2 =
         1 + packet.ideal_x[lane] * packet.ideal_x[lane] + packet.ideal_y[lane] * packet.ideal_y[lane];
-    const double angle = patch * patch / (view.camera().fx * view.camera().fy * std::pow(stretch2, 1.5));
+    const int across = std::min(patch, view.width() - i % hits.columns * patch);  // less at the picture's border
+    const int down = std::min(patch, view.height() - i / hits.columns * patch);
+    const double angle = across * down / (view.camera().fx * view.camera().fy * std::pow(stretch2, 1.5));
     const double profile = std::pow(stretch2, 0.5 * (4 - falloff));
     patches.weight[i] = static_cast<float>(strength * packet.nir_albedo[lane] / M_PI * profile * angle);
     patches.area_m2[i] = static_cast<float>(angle * z * z * stretch2);
@@ -72,14 +75,15 @@ tof::LitPatches patches_of(const IrView& view, const GridHits& hits, double fall
 
 }  // namespace
 
-BounceMap::BounceMap(const IrView& view, double falloff, double strength) : width_(view.width()) {
+BounceMap::BounceMap(const IrView& view, double falloff, double strength)
+    : width_(view.width()), edge_(edge_px(view.width())) {
   if (strength <= 0) return;
-  columns_ = (view.width() - 1) / cell + 2;
-  rows_ = (view.height() - 1) / cell + 2;
-  const GridHits sources = trace_grid(view, (view.width() + patch - 1) / patch, (view.height() + patch - 1) / patch,
-                                      0.5f * (patch - 1), patch);
-  const tof::LitPatches patches = patches_of(view, sources, falloff, strength);
-  const tof::SurfacePoints points = points_of(trace_grid(view, columns_, rows_, 0, cell));
+  columns_ = (view.width() - 1) / edge_ + 2;
+  rows_ = (view.height() - 1) / edge_ + 2;
+  const GridHits sources = trace_grid(view, (view.width() + edge_ - 1) / edge_, (view.height() + edge_ - 1) / edge_,
+                                      0.5f * (edge_ - 1), edge_);
+  const tof::LitPatches patches = patches_of(view, sources, edge_, falloff, strength);
+  const tof::SurfacePoints points = points_of(trace_grid(view, columns_, rows_, 0, edge_));
   depth_m_ = points.z;
   grid_.resize(static_cast<std::size_t>(rows_) * tof::bounce_terms * columns_);
   tbb::parallel_for(0, rows_, [&](int row) {
@@ -95,16 +99,16 @@ void BounceMap::row(int y, const float* depth_m, float* terms) const {
     std::fill(terms, terms + static_cast<std::ptrdiff_t>(tof::bounce_terms) * width_, 0.0f);
     return;
   }
-  const float down = static_cast<float>(y % cell) / cell;
+  const float down = static_cast<float>(y % edge_) / edge_;
   for (int column = 0; column + 1 < columns_; ++column) {
-    const int first = column * cell, end = std::min(cell, width_ - first);
-    const int corner = (y / cell) * columns_ + column;
+    const int first = column * edge_, end = std::min(edge_, width_ - first);
+    const int corner = (y / edge_) * columns_ + column;
     const float depths[4] = {depth_m_[corner], depth_m_[corner + 1], depth_m_[corner + columns_],
                              depth_m_[corner + columns_ + 1]};
     const auto [least, most] = std::minmax_element(depths, depths + 4);
     const bool whole = *most - *least <= one_surface * *least;
     for (int i = 0; i < end; ++i) {
-      const float right = static_cast<float>(i) / cell;
+      const float right = static_cast<float>(i) / edge_;
       float weights[4] = {(1 - right) * (1 - down), right * (1 - down), (1 - right) * down, right * down};
       if (!whole) keep_one_surface(depths, depth_m[first + i], weights);
       mix(corner, weights, &terms[first + i]);

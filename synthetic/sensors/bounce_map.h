@@ -21,9 +21,9 @@ class BounceMap {
   static void keep_one_surface(const float (&depths)[4], float depth_m, float (&weights)[4]);
   void mix(int corner, const float (&weights)[4], float* terms) const;
 
-  int width_, columns_ = 0, rows_ = 0;
-  std::vector<float> grid_;     // by row, term, column
-  std::vector<float> depth_m_;  // of the grid's points
+  int width_, edge_, columns_ = 0, rows_ = 0;  // edge_: pixels between two points of the grid
+  std::vector<float> grid_;                    // by row, term, column
+  std::vector<float> depth_m_;                 // of the grid's points
 };
 
 }  // namespace dressform

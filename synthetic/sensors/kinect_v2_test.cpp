@@ -205,25 +205,34 @@ TEST(KinectV2, ACornerLooksRoundBecauseOfBouncedLight) {
   }
 }
 
-TEST(KinectV2, BouncedLightInASphereIsThatOfTheBooks) {
-  // From the centre of a matt sphere: what bounces once lights all of it alike, albedo x cone / (4 pi) of the direct.
+// From the centre of a matt sphere: what bounces once lights all of it alike, albedo x cone / (4 pi) of the direct.
+void expect_light_in_a_sphere(const Camera& camera) {
   const RayScene scene = scene_of(surface(sphere_mesh({0, 0, 0}, 2, 200), 0.5f, true));
-  const Camera camera{512, 424, 366, 366, 255.5, 211.5, {}};
   const RayTable rays(camera);
   const IrView view(scene, rays, camera, Isometry3d::Identity(), 0);
   const BounceMap map(view, 4, 1);
+  const int width = camera.width, height = camera.height;
   double cone = 0;
-  for (int y = 0; y < 424; ++y)
-    for (int x = 0; x < 512; ++x) cone += std::pow(1 + view.ideal(x, y).squaredNorm(), -1.5) / (366.0 * 366.0);
-  std::vector<float> terms(512 * tof::bounce_terms);
-  std::vector<float> depth(512);
-  for (const int y : {0, 100, 211, 423}) {
-    for (int x = 0; x < 512; ++x) depth[x] = static_cast<float>(2 / std::sqrt(1 + view.ideal(x, y).squaredNorm()));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      cone += std::pow(1 + view.ideal(x, y).squaredNorm(), -1.5) / (camera.fx * camera.fy);
+  std::vector<float> terms(width * tof::bounce_terms), depth(width);
+  for (const int y : {0, height / 4, height / 2, height - 1}) {
+    for (int x = 0; x < width; ++x) depth[x] = static_cast<float>(2 / std::sqrt(1 + view.ideal(x, y).squaredNorm()));
     map.row(y, depth.data(), terms.data());
-    for (const int x : {0, 200, 256, 511})
-      EXPECT_NEAR(terms[512 * (tof::bounce_terms - 1) + x], 0.5 * cone / (4 * M_PI) / 4,
+    for (const int x : {0, 2 * width / 5, width / 2, width - 1})
+      EXPECT_NEAR(terms[width * (tof::bounce_terms - 1) + x], 0.5 * cone / (4 * M_PI) / 4,
                   0.05 * 0.5 * cone / (16 * M_PI));
   }
+}
+
+TEST(KinectV2, BouncedLightInASphereIsThatOfTheBooks) {
+  expect_light_in_a_sphere({512, 424, 366, 366, 255.5, 211.5, {}});
+}
+
+TEST(KinectV2, BouncedLightIsThatOfTheBooksInSmallPicturesToo) {
+  expect_light_in_a_sphere({307, 254, 219.6, 219.6, 153, 126.5, {}});
+  expect_light_in_a_sphere({103, 85, 73.2, 73.2, 51, 42, {}});
 }
 
 TEST(KinectV2, LightThatReachesAWallDoesNotReachThePostBeforeIt) {
