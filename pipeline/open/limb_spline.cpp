@@ -8,6 +8,7 @@
 #include "pipeline/open/open.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/rim_fit.h"
+#include "pipeline/surface/tucked.h"
 
 namespace dressform {
 namespace {
@@ -51,6 +52,7 @@ struct Scene {
   std::vector<DepthView> views;
   MeshQuery naked;
   BodyLimbs limbs;
+  bool tucked = false;  // the top is worn under the bottom
 };
 
 // Parts of the body under the vertices.
@@ -243,7 +245,7 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
                                     closed, scene, params);
     if (rim.curve.knots.empty()) return {};
     caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, work.nearer.at(opening.name), scene.limbs));
-    observed.push_back(rim.observed);
+    observed.push_back(rim.observed && !(opening.name == "hem" && work.kind == "shirt" && scene.tucked));
   }
   const CutResult cut = cut_caps(closed.mesh, caps);
   if (cut.mesh.triangles.empty()) return {};
@@ -256,19 +258,31 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
   return garment;
 }
 
+// The kind that the surface was made as: it decides how many openings can be cut.
+std::string kind_of(const std::string& name, const Mesh& closed, const Scene& scene) {
+  const auto found = scene.segmentation.kinds.find(name);
+  const std::string kind = found != scene.segmentation.kinds.end() ? found->second : name == "top" ? "shirt" : "skirt";
+  return kind == "trousers" || kind == "skirt" ? closed_bottom_kind(closed, scene.limbs, kind) : kind;
+}
+
+// The garment worn over this one, where they meet.
+std::optional<Label> worn_over(Label label, const Scene& scene) {
+  if (label == Label::bottom && !scene.tucked) return Label::top;
+  return {};
+}
+
 std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGarment& closed, const Scene& scene,
                                         LimbSplineParams params) {
   if (closed.mesh.triangles.empty()) return {};
   Work work;
-  const auto kind = scene.segmentation.kinds.find(name);
-  work.kind = kind != scene.segmentation.kinds.end() ? kind->second : name == "top" ? "shirt" : "skirt";
+  work.kind = kind_of(name, closed.mesh, scene);
   work.parts = parts_below(closed.mesh, scene);
   work.openings = garment_openings(work.kind, closed.mesh, work.parts, scene.limbs);
   if (work.openings.empty()) return {};
   const Label label = name == "top" ? Label::top : Label::bottom;
   const MeshQuery query(closed.mesh);
-  work.edges = rim_samples(scene.segmentation, label, scene.session, scene.views, query, scene.naked, scene.limbs,
-                           work.openings, params.edges);
+  work.edges = rim_samples(scene.segmentation, label, worn_over(label, scene), scene.session, scene.views, query,
+                           scene.naked, scene.limbs, work.openings, params.edges);
   for (auto& [opening, samples] : depth_rim_samples(scene.segmentation, label, scene.session, scene.views, query,
                                                     scene.naked, scene.limbs, work.openings, params.depth)) {
     auto& edges = work.edges[opening];
@@ -287,8 +301,11 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
 OpenGarments limb_spline(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                          const Registration& registration, const Segmentation& segmentation,
                          const ClosedGarments& closed, const LimbSplineParams& params) {
-  const Scene scene{session, segmentation, depth_views(session, calibration, registration), MeshQuery(naked.body),
-                    find_limbs(naked.body, front_from_prior(session, registration))};
+  Scene scene{session, segmentation, depth_views(session, calibration, registration), MeshQuery(naked.body),
+              find_limbs(naked.body, front_from_prior(session, registration))};
+  const auto top = closed.garments.find("top"), bottom = closed.garments.find("bottom");
+  if (top != closed.garments.end() && bottom != closed.garments.end())
+    scene.tucked = is_tucked(top->second.support, bottom->second.support, scene.naked, scene.limbs);
   OpenGarments opened;
   for (const auto& [name, garment] : closed.garments) {
     auto open = open_garment(name, garment, scene, params);

@@ -90,7 +90,7 @@ std::optional<RimPoint> rim_point(const ColorView& view, const Edge& edge, const
 }  // namespace
 
 std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& segmentation, Label garment,
-                                                          const CaptureSession& session,
+                                                          std::optional<Label> over, const CaptureSession& session,
                                                           const std::vector<DepthView>& views, const MeshQuery& closed,
                                                           const MeshQuery& naked, const BodyLimbs& limbs,
                                                           const std::vector<Opening>& openings,
@@ -102,8 +102,7 @@ std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& se
     const Isometry3d model_from_color = view.model_from_sensor * view.sensor->color_from_ir.inverse();
     const ColorView color{&view, &labels->second, model_from_color.translation(), model_from_color.linear()};
     for (const Edge& edge : mask_edges(labels->second, garment, params)) {
-      // The top is worn over the bottom: where they meet, it is the top that ends.
-      if (garment == Label::bottom && edge.beyond == Label::top) continue;
+      if (edge.beyond == over) continue;  // where they meet, it is the outer one that ends
       const auto point = rim_point(color, edge, closed, naked, params);
       if (!point) continue;
       const int triangle = naked.closest(point->point).triangle;

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,9 @@ struct MaskEdgeParams {
 };
 
 // Rim points of a garment, by opening: pixels where its mask ends although the closed surface goes on, thrown back on
-// that surface. Outlines, edges made by something in front (an arm, the other garment worn over it) are left out.
+// that surface. Outlines, edges made by something in front (an arm, the garment worn `over` it) are left out.
 std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& segmentation, Label garment,
-                                                          const CaptureSession& session,
+                                                          std::optional<Label> over, const CaptureSession& session,
                                                           const std::vector<DepthView>& views, const MeshQuery& closed,
                                                           const MeshQuery& naked, const BodyLimbs& limbs,
                                                           const std::vector<Opening>& openings,

@@ -156,6 +156,21 @@ TEST(RimFit, NothingSeenIsNoCurve) {
   EXPECT_EQ(fit_rim({}, {}).coverage, 0);
 }
 
+TEST(ClosedBottomKind, IsWhatTheSurfaceIs) {
+  const BodyLimbs limbs = find_limbs(figure::body_mesh());
+  figure::Clothes clothes;
+  const auto kind = [&] {
+    const Mesh closed = figure::surface_of({-0.4, 0.1, -0.4}, {0.4, 1.15, 0.4}, 0.015,
+                                           [&](const Vector3d& p) { return figure::bottom(p, clothes); });
+    return closed_bottom_kind(closed, limbs, "unknown");
+  };
+  EXPECT_EQ(kind(), "trousers");
+  clothes.skirt = true;
+  EXPECT_EQ(kind(), "skirt");
+  clothes.ankle_y = limbs.crotch_y;
+  EXPECT_EQ(kind(), "unknown");
+}
+
 OpenGarments run(const std::string& variant, const figure::Capture& c, const ClosedGarments& closed) {
   return Open::at(variant).run(c.session, c.calibration, c.naked, c.registration, c.segmentation, closed, {}, 1);
 }
@@ -206,11 +221,29 @@ TEST_P(EveryOpening, SkirtHasTwoRims) {
   figure::Clothes clothes;
   clothes.skirt = true;
   clothes.ankle_y = 0.5;
+  figure::Capture capture = figure::capture(clothes);
+  const ClosedGarments closed = close(capture);
+  for (const char* kind : {"skirt", "trousers"}) {  // folds may pass for legs before there is a surface
+    capture.segmentation.kinds["bottom"] = kind;
+    const OpenGarments open = run(GetParam(), capture, closed);
+    ASSERT_TRUE(open.garments.count("bottom"));
+    expect_open(open.garments.at("bottom").mesh, 2);
+    EXPECT_NEAR(mean_y(*rim_named(open.garments.at("bottom"), "hem")), 0.5, 0.012);
+  }
+}
+
+TEST_P(EveryOpening, TuckedShirtShowsTheWaist) {
+  figure::Clothes clothes;
+  clothes.bottom_ease_m = 0.035;
+  clothes.waist_y = 1.05;
   const figure::Capture capture = figure::capture(clothes);
   const OpenGarments open = run(GetParam(), capture, close(capture));
-  ASSERT_TRUE(open.garments.count("bottom"));
-  expect_open(open.garments.at("bottom").mesh, 2);
-  EXPECT_NEAR(mean_y(*rim_named(open.garments.at("bottom"), "hem")), 0.5, 0.012);
+  ASSERT_EQ(open.garments.size(), 2u);
+  const Rim* waist = rim_named(open.garments.at("bottom"), "waist");
+  ASSERT_TRUE(waist);
+  EXPECT_TRUE(waist->observed);
+  EXPECT_NEAR(mean_y(*waist), clothes.waist_y, 0.010);
+  EXPECT_FALSE(rim_named(open.garments.at("top"), "hem")->observed);
 }
 
 void expect_ankles(const OpenGarments& open, double height, double tolerance) {
@@ -222,14 +255,16 @@ void expect_ankles(const OpenGarments& open, double height, double tolerance) {
   }
 }
 
-// Legs that run on below the ankle, as closed surfaces do; points end a pixel or two before the cloth does.
+// Legs that run on below the ankle and keep apart, as closed surfaces do; points end a pixel or two before the cloth
+// does.
 ClosedGarments long_legs(const figure::Clothes& clothes) {
   figure::Clothes longer = clothes;
   longer.ankle_y -= 0.05;
   ClosedGarments closed;
   ClosedGarment& bottom = closed.garments["bottom"];
-  bottom.mesh = figure::surface_of({-0.3, 0.1, -0.25}, {0.3, 1.15, 0.25}, 0.012,
-                                   [&](const Vector3d& p) { return figure::bottom(p, longer); });
+  bottom.mesh = figure::surface_of({-0.3, 0.1, -0.25}, {0.3, 1.15, 0.25}, 0.012, [&](const Vector3d& p) {
+    return std::max(figure::bottom(p, longer), std::min(0.009 - std::abs(p.x()), 0.85 - p.y()));
+  });
   for (const Vector3d& v : bottom.mesh.vertices)
     if (v.y() > clothes.ankle_y + 0.015) bottom.support.points.push_back(v);
   return closed;

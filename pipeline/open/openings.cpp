@@ -97,6 +97,26 @@ std::vector<Opening> garment_openings(const std::string& kind, const Mesh& close
   return openings;
 }
 
+std::string closed_bottom_kind(const Mesh& closed, const BodyLimbs& limbs, const std::string& otherwise) {
+  constexpr double kFork_m = 0.03;    // legs come apart at most this far below the crotch
+  constexpr double kEnd_m = 0.08;     // a hem's folds may come apart as well
+  constexpr double kLeastPart = 0.2;  // a leg's section against the other's
+  constexpr double kAll = 0.9;        // of the levels
+  constexpr int kFewestLevels = 3;
+  const Sections sections = horizontal_sections(closed);
+  int forked = 0, whole = 0;
+  for (int i = 0; i < static_cast<int>(sections.levels.size()); ++i) {
+    const auto& loops = sections.levels[i];
+    if (loops.empty() || sections.y(i) > limbs.crotch_y - kFork_m || sections.y(i) < sections.first_y + kEnd_m)
+      continue;
+    ++(loops.size() > 1 && loops[1].area_m2 > kLeastPart * loops[0].area_m2 ? forked : whole);
+  }
+  const int levels = forked + whole;
+  if (levels < kFewestLevels) return otherwise;
+  if (forked >= kAll * levels) return "trousers";
+  return whole >= kAll * levels ? "skirt" : otherwise;
+}
+
 const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,
                             const BodyLimbs& limbs) {
   const auto named = [&](const char* name) -> const Opening* {

@@ -32,6 +32,10 @@ constexpr double kPolarRadius_m = 0.15;
 std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const std::vector<BodyPart>& parts,
                                       const BodyLimbs& limbs);
 
+// "trousers" where a bottom's closed surface comes apart into two legs below the crotch, "skirt" where it stays one;
+// `otherwise` where it does either or ends too soon to tell.
+std::string closed_bottom_kind(const Mesh& closed, const BodyLimbs& limbs, const std::string& otherwise);
+
 // Which opening an edge point of the garment belongs to: by the part of the body below it, and its height. Null for
 // none.
 const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,

@@ -6,10 +6,13 @@
 
 #include "pipeline/common/lattice.h"
 #include "pipeline/common/mesh_tidy.h"
+#include "pipeline/surface/carried_on.h"
 #include "pipeline/surface/covered_body.h"
 #include "pipeline/surface/garment_cloud.h"
+#include "pipeline/surface/leg_hulls.h"
 #include "pipeline/surface/offset_field.h"
 #include "pipeline/surface/surface.h"
+#include "pipeline/surface/tucked.h"
 
 namespace dressform {
 namespace {
@@ -27,6 +30,7 @@ struct LayerParams {
   double edge_m = 0.008;
   double gap_m = 0.006;
   double clearance_m = 0.0015;
+  double leg_slack_m = 0.007;
   int fewest_points = 300;
 };
 template <class V>
@@ -43,6 +47,7 @@ void fields(V& v, LayerParams& p) {
   v("edge_m", p.edge_m, 0.003, 0.05, "m", "edges of the mesh shorter than this are collapsed");
   v("gap_m", p.gap_m, 0.0, 0.05, "m", "cloth beneath another garment stays this far inside it where it is hidden");
   v("clearance_m", p.clearance_m, 0.0, 0.02, "m", "cloth stays this far off the naked body");
+  v("leg_slack_m", p.leg_slack_m, 0.0, 0.2, "m", "how far trousers bulge between the legs beyond a taut fit");
   v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");
 }
 
@@ -157,10 +162,10 @@ double beneath(const Outer& outer, const Vector3d& point, double body_distance, 
   return std::min(outer.closed.signed_distance(point) + gap_m, body_distance - kClearance_m);
 }
 
-// Negative inside the garment taken as a solid: within the layer and its ends, beneath what is worn over it, and not in
-// the slits that keep apart what goes round each limb.
-std::vector<float> solid(const Space& space, const CoveredBody& body, const std::vector<float>& ease,
-                         const std::optional<Outer>& outer, const LayerParams& params) {
+// Negative inside the garment taken as a solid: within the layer, its ends and the legs' hulls, beneath what is worn
+// over it, and not in the slits that keep apart what goes round each limb.
+std::vector<float> solid(const Space& space, const CoveredBody& body, const LegHulls& hulls,
+                         const std::vector<float>& ease, const std::optional<Outer>& outer, const LayerParams& params) {
   const auto least = static_cast<float>(params.clearance_m);
   const double slit_m = 0.75 * space.lattice.step_m;  // half its width: no lattice point is jumped over
   std::vector<float> field(space.lattice.count());
@@ -172,6 +177,8 @@ std::vector<float> solid(const Space& space, const CoveredBody& body, const std:
         if (value < space.lattice.step_m) {
           const Vector3d point = space.lattice.point(x, y, z);
           value = std::max(value, body.beyond_ends(point));
+          const double slack = space.body_distance[at] - least;  // hulls are coarse: they never cut into the body
+          value = std::max(value, std::min(slack, hulls.beyond(point) - params.leg_slack_m));
           if (outer && value < space.lattice.step_m)
             value = std::max(value, beneath(*outer, point, space.body_distance[at], params.gap_m));
           if (space.domain[at] && value < space.lattice.step_m && space.body_distance[at] > 0)
@@ -187,16 +194,18 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
                                           const std::optional<Outer>& outer, const std::vector<DepthView>& views,
                                           const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {
   const CoveredBody body(naked, limbs, name, extent, params.margin_m);
-  const Space space = make_space(body, cloud.cloud, params);
+  const GarmentCloud carried = carried_on(cloud, name, extent, naked, limbs, params.margin_m);
+  const Space space = make_space(body, carried.cloud, params);
 
-  LatticeData data = plane_distances(space.lattice, cloud, cloud.smoothing * params.kernel_m, params.reach_m);
+  LatticeData data = plane_distances(space.lattice, carried, cloud.smoothing * params.kernel_m, params.reach_m);
   for (std::size_t i = 0; i < data.value.size(); ++i) data.value[i] = space.body_distance[i] - data.value[i];
   std::vector<float> ease = diffuse(space.lattice, data, space.domain, params.stiffness, params.sweeps);
   carve(space, body, views, ease, params, data);
   ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
 
+  const LegHulls hulls(carried.cloud, naked.mesh(), limbs, extent, params.margin_m);
   BallReport report;
-  std::vector<float> field = ball_field(space.lattice, solid(space, body, ease, outer, params), report);
+  std::vector<float> field = ball_field(space.lattice, solid(space, body, hulls, ease, outer, params), report);
   if (field.empty()) return {};
   ClosedGarment garment;
   garment.mesh = tidied(lattice_surface(space.lattice, field), params.edge_m);
@@ -220,16 +229,17 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
     extents.emplace(each.first, garment_extent(each.first, cloud.cloud, query, limbs));
     clouds.emplace(each.first, std::move(cloud));
   }
-  if (extents.count("top") && extents.count("bottom"))
-    extents["bottom"] = up_to_the_waist(extents["bottom"], extents["top"], limbs);
+  const bool both = extents.count("top") && extents.count("bottom");
+  const bool tucked = both && is_tucked(clouds["top"].cloud, clouds["bottom"].cloud, query, limbs);
+  if (both && !tucked) extents["bottom"] = up_to_the_waist(extents["bottom"], extents["top"], limbs);
   ClosedGarments closed;
   std::optional<Outer> outer;
-  for (const char* name : {"top", "bottom"}) {  // the top hangs over the bottom
+  for (const char* name : {"top", "bottom"}) {  // the top hangs over the bottom, unless it is tucked in
     const auto cloud = clouds.find(name);
     if (cloud == clouds.end()) continue;
     auto garment = make_garment(name, std::move(cloud->second), extents[name], outer, views, query, limbs, params);
     if (!garment) continue;
-    outer.emplace(Outer{MeshQuery(garment->mesh), extents[name].bottom_y});
+    if (!tucked) outer.emplace(Outer{MeshQuery(garment->mesh), extents[name].bottom_y});
     closed.garments.emplace(name, std::move(*garment));
   }
   return closed;

@@ -7,7 +7,10 @@
 #include <cmath>
 
 #include "pipeline/common/dressed_figure_for_tests.h"
+#include "pipeline/surface/carried_on.h"
 #include "pipeline/surface/covered_body.h"
+#include "pipeline/surface/leg_hulls.h"
+#include "pipeline/surface/tucked.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -73,6 +76,89 @@ TEST(GarmentExtent, HiddenBottomsReachTheWaistHoweverLongTheTop) {
   bottom.top_y = 1.02;  // below the waist by its own cut, skin above it
   top.bottom_y = 1.2;
   EXPECT_EQ(up_to_the_waist(bottom, top, limbs).top_y, 1.02);
+}
+
+// A ring of points round the figure's waist.
+void add_ring(double radius, double low, double high, PointCloud& cloud) {
+  for (double y = low; y < high; y += 0.008)
+    for (int i = 0; i < 90; ++i) {
+      const double angle = 2 * M_PI * i / 90;
+      cloud.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+    }
+}
+
+TEST(Tucked, TheOuterGarmentIsTheOneFurtherOffTheBody) {
+  const Mesh body = figure::body_mesh();
+  const MeshQuery naked(body);
+  const BodyLimbs limbs = find_limbs(body);
+  const auto tucked = [&](double top_m, double bottom_m, double gap_m) {
+    PointCloud top, bottom;
+    add_ring(0.15 + top_m, 1.04 + gap_m, 1.3, top);
+    add_ring(0.15 + bottom_m, 0.9, 1.04, bottom);
+    return is_tucked(top, bottom, naked, limbs);
+  };
+  EXPECT_TRUE(tucked(0.01, 0.02, 0));
+  EXPECT_TRUE(tucked(0.01, 0.02, 0.03));
+  EXPECT_FALSE(tucked(0.02, 0.01, 0));
+  EXPECT_FALSE(tucked(0.01, 0.01, 0));
+  EXPECT_FALSE(tucked(0.01, 0.02, 0.15));  // skin between them
+  EXPECT_FALSE(is_tucked({}, {}, naked, limbs));
+}
+
+// A flared skirt in eight folds, seen down to 30 mm above its hem.
+TEST(CarriedOn, FoldsAndFlareGoOnToTheHem) {
+  const Mesh body = figure::body_mesh();
+  const BodyLimbs limbs = find_limbs(body);
+  constexpr double kSlope = 0.3, kEnd_m = 0.5;
+  const auto radius = [&](double angle, double y) { return 0.25 + 0.03 * std::cos(8 * angle) + kSlope * (kEnd_m - y); };
+  GarmentCloud cloud;
+  for (double y = kEnd_m; y < kEnd_m + 0.2; y += 0.006)
+    for (int i = 0; i < 240; ++i) {
+      const double angle = 2 * M_PI * i / 240, r = radius(angle, y), turn = -0.24 * std::sin(8 * angle) / r;
+      const Vector3d out(std::cos(angle), 0, std::sin(angle)), round(-std::sin(angle), 0, std::cos(angle));
+      cloud.cloud.points.push_back(r * out + y * Vector3d::UnitY());
+      cloud.cloud.normals.push_back((out - turn * round + kSlope * Vector3d::UnitY()).normalized());
+      cloud.weights.push_back(1);
+    }
+  GarmentExtent extent;
+  extent.top_y = 1.0;
+  extent.bottom_y = kEnd_m;
+  const GarmentCloud carried = carried_on(cloud, "bottom", extent, MeshQuery(body), limbs, 0.05);
+  ASSERT_GT(carried.cloud.points.size(), cloud.cloud.points.size() + 1000);
+  double lowest = 1;
+  for (std::size_t i = cloud.cloud.points.size(); i < carried.cloud.points.size(); ++i) {
+    const Vector3d& p = carried.cloud.points[i];
+    const double angle = std::atan2(p.z(), p.x());
+    EXPECT_LT(p.y(), kEnd_m);
+    EXPECT_NEAR(std::hypot(p.x(), p.z()), radius(angle, p.y()), 0.006) << angle << " at " << p.y();
+    EXPECT_LT(carried.weights[i], 0.5f);
+    lowest = std::min(lowest, p.y());
+  }
+  EXPECT_NEAR(lowest, kEnd_m - 0.05, 0.007);
+}
+
+// Cloth round the legs of which only the outer half is seen: towards the other leg it is as taut as the leg allows.
+TEST(LegHulls, LimitTheInnerSidesOnly) {
+  const Mesh body = figure::body_mesh();
+  const BodyLimbs limbs = find_limbs(body);
+  PointCloud cloth;
+  for (const double side : {1.0, -1.0})
+    for (double y = 0.25; y < 0.8; y += 0.006)
+      for (int i = -30; i <= 30; ++i) {
+        const double angle = M_PI / 2 * i / 30;
+        cloth.points.emplace_back(side * (0.1 + 0.11 * std::cos(angle)), y, 0.11 * std::sin(angle));
+      }
+  GarmentExtent extent;
+  extent.leg_bottom_y = {0.25, 0.25};
+  EXPECT_LT(LegHulls(cloth, body, limbs, extent, 0.05).beyond({0.01, 0.5, 0}), -0.1);  // no trousers
+  extent.forked = true;
+  const LegHulls hulls(cloth, body, limbs, extent, 0.05);
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_NEAR(hulls.beyond({side * 0.01, 0.5, 0}), 0.019, 0.006) << side;  // the leg's own radius is 70 mm
+    EXPECT_LT(hulls.beyond({side * 0.04, 0.5, 0}), 0) << side;
+    EXPECT_LT(hulls.beyond({side * 0.25, 0.5, 0}), -0.05) << side;  // the outer side
+    EXPECT_LT(hulls.beyond({side * 0.01, 1.0, 0}), -0.05) << side;  // the trunk
+  }
 }
 
 class EverySurface : public ::testing::TestWithParam<std::string> {};
