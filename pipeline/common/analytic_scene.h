@@ -16,6 +16,9 @@ struct SceneOptions {
   double wall_behind_m = 0.45;  // of the mannequin, as seen by k1
   bool skirt = false;           // else trousers
   bool top = true, bottom = true;
+  bool dress = false;           // top and skirt in one piece, all of it top
+  double shirt_hem_y_m = 0.93;  // over the floor
+  double leg_end_y_m = 0.15;    // of trousers, over the floor
   double shirt_ease_m = 0.018, bottom_ease_m = 0.012;
   std::function<cv::Vec3b(const Vector3d&)> top_color, bottom_color;  // BGR by place; empty: plain
   Seed seed = 1;

@@ -56,7 +56,8 @@ class World {
     for (const Capsule& part : body_) offer(distance(part, p), kSkin);
     if (!dressed) return best;
     if (options_.top) offer(shirt(p), kTop);
-    if (options_.bottom) offer(options_.skirt ? skirt(p) : trousers(p), kBottom);
+    if (options_.dress) offer(skirt(p), kTop);
+    if (options_.bottom && !options_.dress) offer(options_.skirt ? skirt(p) : trousers(p), kBottom);
     return best;
   }
 
@@ -64,15 +65,17 @@ class World {
   static double cut(double d, double low, double high) { return std::max({d, low, high}); }
   double shirt(const Vector3d& p) const {
     double d = 1e9;
-    for (const int k : {0, 1}) d = std::min(d, cut(distance(body_[k], p) - options_.shirt_ease_m, 0.93 - p.y(), -1));
+    for (const int k : {0, 1})
+      d = std::min(d, cut(distance(body_[k], p) - options_.shirt_ease_m, options_.shirt_hem_y_m - p.y(), -1));
     for (const int k : {4, 8}) {  // sleeves end at y = 1.2
       d = std::min(d, cut(distance(body_[k], p) - options_.shirt_ease_m, 1.2 - p.y(), -1));
     }
     return d;
   }
   double trousers(const Vector3d& p) const {
-    double d = cut(distance(body_[1], p) - options_.bottom_ease_m, p.y() - 1.02, -1);
-    for (const int k : {6, 10}) d = std::min(d, cut(distance(body_[k], p) - options_.bottom_ease_m, 0.15 - p.y(), -1));
+    double d = cut(distance(body_[1], p) - options_.bottom_ease_m, p.y() - 1.02, options_.leg_end_y_m - p.y());
+    for (const int k : {6, 10})
+      d = std::min(d, cut(distance(body_[k], p) - options_.bottom_ease_m, options_.leg_end_y_m - p.y(), -1));
     return d;
   }
   double skirt(const Vector3d& p) const {

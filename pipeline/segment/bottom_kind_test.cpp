@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dressform {
@@ -63,6 +64,16 @@ TEST(BottomKind, OneSideTells) {
     EXPECT_EQ(bottom_kind(half_skirt, standing()), "skirt");
     EXPECT_EQ(bottom_kind(half_legs, standing()), "trousers");
   }
+}
+
+TEST(TopKind, ADressHangsBelowTheCrotch) {
+  std::vector<Vector3d> points;
+  add_tube(0, 0.24, 0.20, 0.02, 5, 0.3, points);  // down to y = 0.35
+  EXPECT_EQ(top_kind(points, standing()), "dress");
+  points.erase(std::remove_if(points.begin(), points.end(), [](const Vector3d& p) { return p.y() < 0.8; }),
+               points.end());
+  EXPECT_EQ(top_kind(points, standing()), "shirt");
+  EXPECT_EQ(top_kind({}, standing()), "shirt");
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "pipeline/segment/hem_curve.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "pipeline/common/distance_transform.h"
@@ -42,6 +44,35 @@ std::vector<int> trace_hem(const cv::Mat& nats, double row_price) {
     at = from[k][at];
   }
   return hem;
+}
+
+cv::Mat near_plane(const cv::Mat& nats, const std::vector<int>& curve, int band_rows, float sure) {
+  const auto row = [&](int c) {
+    const double angle = 2 * M_PI * c / static_cast<double>(curve.size());
+    return Eigen::Vector3d(1, std::cos(angle), std::sin(angle));
+  };
+  std::vector<int> sorted = curve;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  Eigen::Vector3d plane(sorted[sorted.size() / 2], 0, 0);
+  for (int round = 0; round < 20; ++round) {
+    Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t c = 0; c < curve.size(); ++c) {
+      const Eigen::Vector3d a = row(static_cast<int>(c));
+      const double weight = 1 / std::max(1.0, std::abs(a.dot(plane) - curve[c]));
+      normal += weight * a * a.transpose();
+      right += weight * curve[c] * a;
+    }
+    plane = normal.ldlt().solve(right);
+  }
+  cv::Mat result = nats.clone();
+  for (int r = 0; r < nats.rows; ++r) {
+    for (int c = 0; c < nats.cols; ++c) {
+      const double off = r + 0.5 - row(c).dot(plane);
+      if (std::abs(off) > band_rows) result.at<float>(r, c) += off > 0 ? 2 * sure : -2 * sure;
+    }
+  }
+  return result;
 }
 
 }  // namespace dressform

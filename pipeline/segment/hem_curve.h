@@ -10,4 +10,8 @@ namespace dressform {
 // row_price for every row that neighbouring columns differ by. Dynamic programming, twice round.
 std::vector<int> trace_hem(const cv::Mat& nats, double row_price);
 
+// A hem lies in a plane but for a few rows: nats with `sure` added for top above and taken off below that band about
+// the plane through the curve (a level one tilted, fitted by least absolute distances).
+cv::Mat near_plane(const cv::Mat& nats, const std::vector<int>& curve, int band_rows, float sure);
+
 }  // namespace dressform

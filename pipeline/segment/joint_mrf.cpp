@@ -34,6 +34,8 @@ void fields(V& v, JointMrfParams& p) {
   v("parting_band_mm", p.parting.band_mm, 5, 300, "mm", "band round the hem in which colour decides by pixel");
   v("parting_smoothness", p.parting.smoothness, 0, 100, "nats", "price of an edge between top and bottom");
   v("least_mm2", p.parting.least_mm2, 0, 1e6, "mm^2", "cloth on chest or legs below which there is no such garment");
+  v("parting_least_nats", p.parting.least_nats, 0, 3, "nats", "that colour says for a pixel's side of a hem");
+  v("parting_least_share", p.parting.least_share, 0.5, 1, "", "of the pixels beside a hem that tell their side");
   v("parting_rounds", p.parting.rounds, 1, 10, "", "rounds of learning the colours of top and bottom");
 }
 
@@ -108,7 +110,8 @@ Segmentation joint_mrf(const CaptureSession& session, const Calibration& calibra
     result.labels[sensor] =
         label_image(views[k], color_size(session, calibration, sensor), parted.top[k], parted.bottom[k]);
   }
-  if (parted.has_top) result.kinds["top"] = "shirt";
+  if (parted.has_top)
+    result.kinds["top"] = parted.has_bottom ? "shirt" : top_kind(places(views, parted.top), body.limbs);
   if (parted.has_bottom) result.kinds["bottom"] = bottom_kind(places(views, parted.bottom), body.limbs);
   return result;
 }

@@ -42,6 +42,25 @@ TEST(HemCurve, FollowsASlantedEdgeThroughAGap) {
     EXPECT_NEAR(hem[c], 50 + 10 * std::cos(2 * M_PI * c / 36), c >= 10 && c < 14 ? 8 : 1);
 }
 
+// A third of the curve went astray: the hem is the plane through the rest.
+TEST(HemCurve, StaysNearItsPlane) {
+  const auto plane = [](int c) { return 60 + 8 * std::cos(2 * M_PI * c / 36) - 5 * std::sin(2 * M_PI * c / 36); };
+  std::vector<int> curve(36);
+  for (int c = 0; c < 36; ++c) curve[c] = c >= 12 && c < 24 ? 110 : static_cast<int>(std::lround(plane(c)));
+  const cv::Mat held = near_plane(cv::Mat::zeros(150, 36, CV_32F), curve, 10, 3);
+  for (int c = 0; c < 36; ++c) {
+    for (int r = 0; r < 150; ++r) {
+      const float nats = held.at<float>(r, c);
+      const double off = r - plane(c);
+      if (std::abs(off) < 6) {
+        EXPECT_EQ(nats, 0) << r << " " << c;
+      } else if (std::abs(off) > 14) {
+        EXPECT_GT(off * nats, 0) << r << " " << c;
+      }
+    }
+  }
+}
+
 TEST(Segment, PlainClothes) {
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, plain());
@@ -83,11 +102,66 @@ TEST(Segment, AbsentGarments) {
   const auto trousers_only = analytic::make_scene(options);
   for (const auto& variant : Segment::names()) {
     const auto a = run(variant, shirt_only);
-    EXPECT_EQ(a.kinds.count("bottom"), 0u);
+    EXPECT_EQ(a.kinds, (std::map<std::string, std::string>{{"top", "shirt"}}));
     expect_labels(shirt_only, a, 0.85, variant);
     const auto b = run(variant, trousers_only);
     EXPECT_EQ(b.kinds.count("top"), 0u);
     expect_labels(trousers_only, b, 0.85, variant);
+  }
+}
+
+// Figures of several colours that stand anywhere on the cloth.
+cv::Vec3b strewn(const Vector3d& p) {
+  const double wave = std::sin(55 * p.x() + 3) * std::sin(60 * p.y()) * std::cos(50 * p.z());
+  if (wave > 0.35) return std::sin(17 * p.y() + 23 * p.x()) > 0 ? cv::Vec3b(40, 40, 170) : cv::Vec3b(210, 200, 60);
+  return {60, 110, 50};
+}
+
+TEST(Segment, DressIsOneGarmentWhateverItsPrint) {
+  const auto plaid = [](const Vector3d& p) {
+    const int bands = (std::fmod(p.y() + 9, 0.09) < 0.03) + (std::fmod(std::atan2(p.x(), p.z()) + 9, 0.5) < 0.15);
+    return bands == 0 ? cv::Vec3b(120, 60, 60) : bands == 1 ? cv::Vec3b(60, 60, 130) : cv::Vec3b(40, 160, 190);
+  };
+  SceneOptions options;
+  options.dress = true;
+  for (const auto& print : {std::function<cv::Vec3b(const Vector3d&)>(strewn), {plaid}}) {
+    options.top_color = print;
+    const auto scene = analytic::make_scene(options);
+    for (const auto& variant : Segment::names()) {
+      const auto found = run(variant, scene);
+      EXPECT_EQ(found.kinds, (std::map<std::string, std::string>{{"top", "dress"}}));
+      expect_labels(scene, found, 0.85, variant);
+    }
+  }
+}
+
+TEST(Segment, SkirtOfNearlyTheShirtsColourIsItsOwnGarment) {
+  SceneOptions options;
+  options.skirt = true;
+  options.top_color = [](const Vector3d&) { return cv::Vec3b(40, 60, 25); };
+  options.bottom_color = [](const Vector3d&) { return cv::Vec3b(60, 38, 28); };
+  const auto scene = analytic::make_scene(options);
+  for (const auto& variant : Segment::names()) {
+    const auto found = run(variant, scene);
+    EXPECT_EQ(found.kinds, (std::map<std::string, std::string>{{"top", "shirt"}, {"bottom", "skirt"}}));
+    expect_labels(scene, found, 0.85, variant);
+  }
+}
+
+// Below a printed shirt, a hand's width of shorts: 15 pixels here; at the sides the hands hang before it.
+TEST(Segment, BottomOfWhichLittleShows) {
+  SceneOptions options;
+  options.top_color = strewn;
+  options.leg_end_y_m = 0.83;
+  const auto scene = analytic::make_scene(options);
+  for (const auto& variant : Segment::names()) {
+    const auto found = run(variant, scene);
+    EXPECT_EQ(found.kinds.count("bottom"), 1u);
+    for (const auto& [sensor, truth] : scene.labels) {
+      const bool side = sensor == "k2" || sensor == "k4";
+      EXPECT_GT(analytic::label_iou(found.labels.at(sensor), truth, 2), 0.85) << variant << sensor;
+      EXPECT_GT(analytic::label_iou(found.labels.at(sensor), truth, 3), side ? 0.5 : 0.8) << variant << sensor;
+    }
   }
 }
 

@@ -7,40 +7,40 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/common/graph_cut.h"
+#include "pipeline/segment/bottom_kind.h"
+#include "pipeline/segment/cloth_zones.h"
 #include "pipeline/segment/hem_curve.h"
+#include "pipeline/segment/hem_evidence.h"
+#include "pipeline/segment/trunk_grid.h"
 #include "pipeline/segment/view_models.h"
 
 namespace dressform {
 namespace {
 
-constexpr int kColumns = 72;
-constexpr double kRow_m = 0.005;
-constexpr float kSleeveEnd = 0.7f;  // of the arm: cloth above is sleeve, below it may hang from the hips
-constexpr float kBinNats = 6;       // most that one cell of the curve's grid says
-constexpr float kFullCell = 6;      // pixels from which a cell counts in full
-constexpr float kSeedNats = 4;      // of a cell that is surely top or bottom
-
-enum Zone : uchar { kNowhere, kBetween, kSureTop, kSureBottom, kSleeve };
+constexpr float kBinNats = 6;            // most that one cell of the curve's grid says
+constexpr float kFullCell = 6;           // pixels from which a cell counts in full
+constexpr float kSeedNats = 4;           // of a cell that is surely top or bottom
+constexpr int kOffPlane_rows = 14;       // that a hem may lie from the plane through it
+constexpr double kLeastSeed_mm2 = 1500;  // of cloth to learn the bottom's colours from
 
 class Divider {
  public:
   Divider(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs,
           const TopBottomParams& params)
-      : views_(views), cloth_(cloth), limbs_(limbs), params_(params) {
-    rows_ = std::max(8, static_cast<int>(std::ceil((limbs.top_y - limbs.floor_y + 0.1) / kRow_m)));
-    find_axis();
-    mark_zones();
-  }
+      : views_(views),
+        cloth_(cloth),
+        limbs_(limbs),
+        params_(params),
+        grid_(limbs),
+        zones_(cloth_zones(views, cloth, limbs)) {}
 
   TopBottom run() {
     TopBottom result;
-    result.has_top = area_mm2(kSureTop) >= params_.least_mm2;
-    result.has_bottom = area_mm2(kSureBottom) >= params_.least_mm2;
-    if (result.has_top && result.has_bottom) {
-      trace();
-    } else {
-      hem_.assign(kColumns, result.has_bottom ? rows_ : 0);
-    }
+    result.has_top = area(kSureTop) >= params_.least_mm2;
+    if (result.has_top)
+      result.has_bottom = find_parting();
+    else
+      result.has_bottom = area(kSureBottom) >= params_.least_mm2;
     result.top.resize(views_.size());
     result.bottom.resize(views_.size());
     tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t k) {
@@ -54,72 +54,65 @@ class Divider {
   }
 
  private:
-  template <class Visit>
-  void each_cloth_pixel(std::size_t k, const Visit& visit) const {
-    for (int v = 0; v < views_[k].box.height; ++v)
-      for (int u = 0; u < views_[k].box.width; ++u)
-        if (cloth_[k].at<uchar>(v, u) && !std::isnan(views_[k].place_m.at<cv::Vec3f>(v, u)[0])) visit(v, u);
+  // Two garments where a curve is found on whose sides the colours differ, or where the cloth goes round each leg. The
+  // bottom's first colours are those low on the legs, at the lower end of the cloth, or those there that are foreign to
+  // the top: the curve that tells the colours best stands.
+  bool find_parting() {
+    const auto low = zones_, end = with_lower_end(low, views_, cloth_, limbs_, grid_);
+    const bool forked = area(kSureBottom) >= params_.least_mm2 && goes_round_each_leg();
+    double most_nats = -1;
+    std::vector<int> hem;
+    std::vector<cv::Mat> nats;
+    for (const auto& zones : {low, end, without_colors_of_top(end, views_, cloth_, limbs_)}) {
+      zones_ = zones;
+      if (area(kSureBottom) < kLeastSeed_mm2) continue;
+      trace();
+      const HemEvidence evidence = judged();
+      if (!(differ(evidence) ? evidence.color_nats > most_nats : forked && hem.empty())) continue;
+      most_nats = differ(evidence) ? evidence.color_nats : 0;
+      hem = hem_;
+      nats = nats_;
+    }
+    zones_ = low;
+    hem_ = hem;
+    nats_ = nats;
+    return !hem.empty();
   }
 
-  // The upright axis of the hips: directions are counted round it.
-  void find_axis() {
-    axis_ = limbs_.neck;
-    if (limbs_.left_leg && limbs_.right_leg) axis_ = (limbs_.left_leg->root + limbs_.right_leg->root) / 2;
+  bool differ(const HemEvidence& evidence) const {
+    return evidence.color_nats >= params_.least_nats && evidence.below_mm2 >= params_.least_mm2 &&
+           std::min(evidence.told_above, evidence.told_below) >= params_.least_share;
   }
 
-  int column(const cv::Vec3f& place) const {
-    const double angle = std::atan2(place[0] - axis_.x(), place[2] - axis_.z()) + M_PI;
-    return std::clamp(static_cast<int>(angle / (2 * M_PI) * kColumns), 0, kColumns - 1);
-  }
-  int row(const cv::Vec3f& place) const {
-    return std::clamp(static_cast<int>((place[1] - limbs_.floor_y) / kRow_m), 0, rows_ - 1);
-  }
+  double area(Zone zone) const { return zone_area_mm2(zones_, views_, zone); }
 
-  // Cloth low on the legs, whatever its length: the lower 60 % of what hangs more than a hand below the crotch.
-  double sure_bottom_height() const {
-    double lowest = limbs_.crotch_y;
-    std::vector<float> heights;
+  bool goes_round_each_leg() const {
+    std::vector<Vector3d> low;
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      each_cloth_pixel(k, [&](int v, int u) {
-        const float y = views_[k].place_m.at<cv::Vec3f>(v, u)[1];
-        if (y < limbs_.crotch_y) heights.push_back(y);
+      each_cloth_pixel(views_[k], cloth_[k], [&](int v, int u) {
+        const auto& p = views_[k].place_m.at<cv::Vec3f>(v, u);
+        if (views_[k].measured.at<uchar>(v, u) && zones_[k].at<uchar>(v, u) == kSureBottom)
+          low.emplace_back(p[0], p[1], p[2]);
       });
     }
-    if (!heights.empty()) {
-      std::nth_element(heights.begin(), heights.begin() + heights.size() / 50, heights.end());
-      lowest = heights[heights.size() / 50];
-    }
-    const double hand = 0.05 * (limbs_.top_y - limbs_.floor_y);
-    return std::min(limbs_.crotch_y - hand, lowest + 0.6 * (limbs_.crotch_y - lowest));
+    const LegVotes votes = leg_votes(low, limbs_);
+    return votes.parts >= 2 && votes.parts > votes.spans;
   }
 
-  void mark_zones() {
-    const double chest = limbs_.armpit_y - 0.04 * (limbs_.top_y - limbs_.floor_y), low = sure_bottom_height();
-    zones_.resize(views_.size());
+  HemEvidence judged() const {
+    std::vector<CurveOnView> curve(views_.size());
     for (std::size_t k = 0; k < views_.size(); ++k) {
       if (views_[k].box.empty()) continue;
-      zones_[k] = cv::Mat::zeros(views_[k].box.size(), CV_8U);
-      each_cloth_pixel(k, [&](int v, int u) {
-        const auto part = static_cast<BodyPart>(views_[k].part.at<uchar>(v, u));
-        const float y = views_[k].place_m.at<cv::Vec3f>(v, u)[1];
-        const bool arm = part == BodyPart::left_arm || part == BodyPart::right_arm;
-        Zone zone = kBetween;
-        if (arm && views_[k].limb_end.at<float>(v, u) < kSleeveEnd && y > limbs_.crotch_y)
-          zone = kSleeve;
-        else if (y > chest)
-          zone = kSureTop;
-        else if (y < low && !arm)
-          zone = kSureBottom;
-        zones_[k].at<uchar>(v, u) = zone;
+      curve[k].above_m = cv::Mat(views_[k].box.size(), CV_32F, cv::Scalar(std::nanf("")));
+      curve[k].column = cv::Mat::zeros(views_[k].box.size(), CV_8U);
+      each_cloth_pixel(views_[k], cloth_[k], [&](int v, int u) {
+        if (zones_[k].at<uchar>(v, u) == kSleeve) return;
+        const auto& place = views_[k].place_m.at<cv::Vec3f>(v, u);
+        curve[k].above_m.at<float>(v, u) = grid_.above(place, hem_);
+        curve[k].column.at<uchar>(v, u) = static_cast<uchar>(grid_.column(place));
       });
     }
-  }
-
-  double area_mm2(Zone zone) const {
-    double area = 0;
-    for (std::size_t k = 0; k < views_.size(); ++k)
-      if (!zones_[k].empty()) area += cv::countNonZero(zones_[k] == zone) * std::pow(pixel_size_mm(views_[k]), 2);
-    return area;
+    return hem_evidence(views_, curve);
   }
 
   void trace() {
@@ -131,7 +124,9 @@ class Divider {
     }
     for (int round = 0; round < params_.rounds; ++round) {
       weigh_colors(top, bottom);
-      hem_ = trace_hem(gathered_nats(), params_.row_price);
+      const cv::Mat nats = gathered_nats();
+      hem_ = trace_hem(nats, params_.row_price);
+      hem_ = trace_hem(near_plane(nats, hem_, kOffPlane_rows, kBinNats), params_.row_price);
       for (std::size_t k = 0; k < views_.size(); ++k)
         if (!zones_[k].empty()) split_by_curve(k, 0.02, top[k], bottom[k]);
     }
@@ -160,21 +155,21 @@ class Divider {
 
   // All views' nats on the grid of directions and heights.
   cv::Mat gathered_nats() const {
-    cv::Mat sum = cv::Mat::zeros(rows_, kColumns, CV_32F), count = sum.clone(), seed = sum.clone();
+    cv::Mat sum = cv::Mat::zeros(grid_.rows, TrunkGrid::kColumns, CV_32F), count = sum.clone(), seed = sum.clone();
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      each_cloth_pixel(k, [&](int v, int u) {
+      each_cloth_pixel(views_[k], cloth_[k], [&](int v, int u) {
         const uchar zone = zones_[k].at<uchar>(v, u);
         if (zone == kSleeve) return;
         const auto& place = views_[k].place_m.at<cv::Vec3f>(v, u);
-        const int r = row(place), c = column(place);
+        const int r = grid_.row(place), c = grid_.column(place);
         sum.at<float>(r, c) += nats_[k].at<float>(v, u);
         count.at<float>(r, c) += 1;
         if (zone != kBetween) seed.at<float>(r, c) = zone == kSureTop ? kSeedNats : -kSeedNats;
       });
     }
     cv::Mat nats = seed;
-    for (int r = 0; r < rows_; ++r) {
-      for (int c = 0; c < kColumns; ++c) {
+    for (int r = 0; r < grid_.rows; ++r) {
+      for (int c = 0; c < TrunkGrid::kColumns; ++c) {
         const float pixels = count.at<float>(r, c);
         if (pixels == 0) continue;
         const float full = std::min(1.f, pixels / kFullCell);
@@ -184,16 +179,11 @@ class Divider {
     return nats;
   }
 
-  // Metres above the curve.
-  float above(const cv::Vec3f& place) const {
-    return static_cast<float>(place[1] - limbs_.floor_y - hem_[column(place)] * kRow_m);
-  }
-
   void split_by_curve(std::size_t k, float margin_m, cv::Mat& top, cv::Mat& bottom) const {
     top = cv::Mat::zeros(views_[k].box.size(), CV_8U);
     bottom = top.clone();
-    each_cloth_pixel(k, [&](int v, int u) {
-      const float height = above(views_[k].place_m.at<cv::Vec3f>(v, u));
+    each_cloth_pixel(views_[k], cloth_[k], [&](int v, int u) {
+      const float height = grid_.above(views_[k].place_m.at<cv::Vec3f>(v, u), hem_);
       const bool sleeve = zones_[k].at<uchar>(v, u) == kSleeve;
       if (sleeve || height > margin_m) top.at<uchar>(v, u) = 255;
       if (!sleeve && height < -margin_m) bottom.at<uchar>(v, u) = 255;
@@ -217,7 +207,7 @@ class Divider {
           cost.at<float>(v, u) = -nats_[k].at<float>(v, u);
           continue;
         }
-        const float height = above(place);
+        const float height = grid_.above(place, hem_);
         const bool sleeve = zones_[k].at<uchar>(v, u) == kSleeve;
         if (sleeve || height > 0) initial.at<uchar>(v, u) = 255;
         if (sleeve || std::abs(height) > band_m) continue;
@@ -246,8 +236,7 @@ class Divider {
   const std::vector<cv::Mat>& cloth_;
   const BodyLimbs& limbs_;
   const TopBottomParams& params_;
-  int rows_ = 0;
-  Vector3d axis_ = Vector3d::Zero();
+  const TrunkGrid grid_;
   std::vector<cv::Mat> zones_, nats_;
   std::vector<int> hem_;
 };

@@ -7,13 +7,15 @@
 namespace dressform {
 
 struct TopBottomParams {
-  double color_nats = 3;    // most that the colour of one pixel may say
-  double row_price = 1;     // of the curve between top and bottom, nats per 5 mm of change between directions
-  double band_mm = 45;      // round the curve, in which colour decides pixel by pixel
-  double smoothness = 8;    // of the cut, nats
-  double speck_mm2 = 500;   // smaller pieces join what surrounds them
-  double least_mm2 = 6000;  // of cloth on chest or legs, below which there is no such garment
-  int rounds = 3;           // of learning colours and tracing the curve
+  double color_nats = 3;      // most that the colour of one pixel may say
+  double row_price = 1;       // of the curve between top and bottom, nats per 5 mm of change between directions
+  double band_mm = 45;        // round the curve, in which colour decides pixel by pixel
+  double smoothness = 8;      // of the cut, nats
+  double speck_mm2 = 500;     // smaller pieces join what surrounds them
+  double least_mm2 = 6000;    // of cloth on chest or legs, below which there is no such garment
+  double least_nats = 0.5;    // that colour says beside a hem, on average
+  double least_share = 0.72;  // of the pixels beside a hem whose colour tells their side
+  int rounds = 3;             // of learning colours and tracing the curve
 };
 
 struct TopBottom {

@@ -13,13 +13,12 @@ constexpr double kPairShare = 0.15;                          // of the other vie
 constexpr std::array<float, 3> kShades{0.75f, 0.55f, 0.4f};  // of a colour's 8-bit values where little light falls
 constexpr float kShadeShare = 0.1f;
 
-// A Lab colour (8-bit) in shadow: the 8-bit values shrink together, and so nearly do lightness and chroma.
+}  // namespace
+
 cv::Vec3b shaded(const cv::Vec3b& lab, float gain) {
   return {cv::saturate_cast<uchar>(gain * lab[0]), cv::saturate_cast<uchar>(128 + gain * (lab[1] - 128)),
           cv::saturate_cast<uchar>(128 + gain * (lab[2] - 128))};
 }
-
-}  // namespace
 
 std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images,
                                           bool shades) {

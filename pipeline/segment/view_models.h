@@ -12,6 +12,9 @@ namespace dressform {
 std::vector<ColorHistogram> shared_models(const std::vector<cv::Mat>& masks, const std::vector<cv::Mat>& images,
                                           bool shades = false);
 
+// A Lab colour (8-bit) in other light: the 8-bit values scale together, and so nearly do lightness and chroma.
+cv::Vec3b shaded(const cv::Vec3b& lab, float gain);
+
 // The views' smoothed_lab images.
 std::vector<cv::Mat> lab_images(const std::vector<ViewEvidence>& views);
 
