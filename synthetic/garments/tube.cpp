@@ -15,7 +15,12 @@ Packed pack(const LimbSection& x) {
   p << x.center.x(), x.center.y(), x.u_plus, x.u_minus, x.v_plus, x.v_minus, x.exponent;
   return p;
 }
-LimbSection unpack(double s, const Packed& p) { return {s, {p[0], p[1]}, p[2], p[3], p[4], p[5], p[6]}; }
+// Beside a section of a far greater exponent the spline swings below what any section has: below 1 the outline would be
+// a star, below 0 the whole plane.
+constexpr double kLeastExponent = 1.8;
+LimbSection unpack(double s, const Packed& p) {
+  return {s, {p[0], p[1]}, p[2], p[3], p[4], p[5], std::max(kLeastExponent, p[6])};
+}
 
 // Slope at section i for a Catmull-Rom spline over uneven stations.
 Packed tangent(const std::vector<LimbSection>& x, int i) {
