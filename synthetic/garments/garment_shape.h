@@ -31,6 +31,7 @@ struct ClothPiece {
 // A garment as a closed solid, the cuts that open it, and the pieces it is made of.
 struct GarmentShape {
   Field field;
+  Field parted;  // instead of `field`, where that does not come out as planned: parts further apart; may be empty
   Eigen::AlignedBox3d box;
   std::vector<RimCut> cuts;
   std::vector<ClothPiece> pieces;

@@ -17,6 +17,7 @@ namespace dressform {
 namespace {
 
 constexpr double kStep = 0.008;        // of the grid that the solid is sampled on, m
+constexpr double kFineStep = 0.006;    // where the usual one does not do
 constexpr double kClearance = 0.0045;  // of the cloth off the body, m
 constexpr double kCollarEdge = 0.012;  // a collar does not lie round the neck in larger triangles, m
 constexpr double kLayerGap = 0.0030;   // of cloth over cloth, m
@@ -135,11 +136,26 @@ std::optional<Mesh> disentangled(Mesh mesh, const Body& body, const std::vector<
   return std::nullopt;
 }
 
+// One way to make the closed shape's surface.
+struct Contouring {
+  Field solid;
+  double step_m;
+};
+
+// As they are tried, one after the other.
+std::vector<Contouring> contourings(const GarmentShape& shape) {
+  const Field& parted = shape.parted ? shape.parted : shape.field;
+  std::vector<Contouring> all{{shape.field, kStep}};
+  if (shape.parted) all.push_back({parted, kStep});
+  all.push_back({parted, kFineStep});
+  return all;
+}
+
 // The cloth as it is put on, in triangles of `edge_m`; nothing where it does not come out in one piece or runs into
 // itself or into what is worn beneath.
-std::optional<Mesh> put_on(const GarmentShape& shape, const Body& body, const std::vector<Garment>& inner,
-                           double edge_m) {
-  Mesh mesh = contour(shape.field, shape.box, kStep);
+std::optional<Mesh> put_on(const Contouring& way, const GarmentShape& shape, const Body& body,
+                           const std::vector<Garment>& inner, double edge_m) {
+  Mesh mesh = contour(way.solid, shape.box, way.step_m);
   for (const RimCut& cut : shape.cuts) mesh = largest_part(cut_off(std::move(mesh), cut.beyond));
   if (!cut_as_planned(mesh, shape.cuts.size())) return std::nullopt;
   for (const Level& seam : shape.seams) split_along(mesh, seam);
@@ -244,8 +260,9 @@ Garment sewn_garment(const GarmentSpec& asked, const Body& body, const std::vect
     spec.ease_m = part * asked.ease_m;
     const GarmentShape shape = maker_of(spec.kind)(spec, body, inner, seed);
     const double edge_m = 2 * (shape.collar ? std::min(spec.cloth_edge_m, kCollarEdge) : spec.cloth_edge_m);
-    if (auto cut = put_on(shape, body, inner, edge_m))
-      return draped(spec, shape, sewn_together(shape, std::move(*cut), body, edge_m), body, inner, seed);
+    for (const Contouring& way : contourings(shape))
+      if (auto cut = put_on(way, shape, body, inner, edge_m))
+        return draped(spec, shape, sewn_together(shape, std::move(*cut), body, edge_m), body, inner, seed);
   }
   throw InputError("garment." + asked.kind,
                    "found cloth that runs into itself on this body; expected limbs that stand "

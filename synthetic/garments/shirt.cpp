@@ -67,6 +67,10 @@ ClothRows shirt_sleeve(const GarmentSpec& spec, const ClothRows& taut) {
   return no_smaller(displaced(hung, height), least, 0.005);
 }
 
+Field field_of(const Tube& tube) {
+  return [tube](const Vector3d& p) { return tube.field(p); };
+}
+
 }  // namespace
 
 GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
@@ -87,11 +91,17 @@ GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::v
   const auto hood = spec.collar == "hood" ? std::make_shared<const Hood>(body, spec.neck_depth_m) : nullptr;
 
   GarmentShape shape;
-  shape.field = right_gap.parted(left_gap.parted([torso, left, right, hood](const Vector3d& p) {
-    const double sleeve = p.x() > 0 ? left.field(p) : right.field(p);
-    const double shirt = smooth_union(torso.field(p), sleeve, 0.028);
-    return hood ? smooth_union(shirt, hood->field(p), 0.04) : shirt;
-  }));
+  const auto joined = [&](const Field& trunk_cloth, const Field& left_sleeve, const Field& right_sleeve) {
+    return right_gap.parted(left_gap.parted([=](const Vector3d& p) {
+      const double sleeve = p.x() > 0 ? left_sleeve(p) : right_sleeve(p);
+      const double shirt = smooth_union(trunk_cloth(p), sleeve, 0.028);
+      return hood ? smooth_union(shirt, hood->field(p), 0.04) : shirt;
+    }));
+  };
+  const Field torso_field = field_of(torso), left_field = field_of(left), right_field = field_of(right);
+  shape.field = joined(torso_field, left_field, right_field);
+  shape.parted = joined(right_gap.trunk_side(left_gap.trunk_side(torso_field)), left_gap.arm_side(left_field),
+                        right_gap.arm_side(right_field));
   const double reach =
       std::max(std::abs(left.point(left.s_max(), 0, 0).x()), std::abs(right.point(right.s_max(), 0, 0).x()));
   shape.box = {

@@ -46,4 +46,18 @@ Field Underarm::parted(const Field& field) const {
   };
 }
 
+Field Underarm::own_side(const Field& layer, const Tube& own, const Tube& other) const {
+  if (!start_y_) return layer;
+  return [layer, own, other, side = side_, start_y = *start_y_](const Vector3d& p) {
+    const double whole = layer(p);
+    if (p.x() * side < 0 || whole > 0.02) return whole;
+    const double to_own = own.field(p), to_other = other.field(p);
+    const double beyond = std::min({to_own - kLayer, kHalfGap + (to_own - to_other) / 2, kSlope * (start_y - p.y())});
+    return smooth_intersection(whole, beyond, 0.004);
+  };
+}
+
+Field Underarm::trunk_side(const Field& trunk_cloth) const { return own_side(trunk_cloth, trunk_, arm_); }
+Field Underarm::arm_side(const Field& sleeve) const { return own_side(sleeve, arm_, trunk_); }
+
 }  // namespace dressform

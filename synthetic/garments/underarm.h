@@ -18,6 +18,11 @@ class Underarm {
   // Cut open along the gap. Where arm and trunk leave no room for two layers above the cuff the solid stays whole.
   Field parted(const Field& field) const;
 
+  // The trunk's cloth, or the sleeve's, without what lies on the other's side of the gap: a shred there that `parted`
+  // leaves whole, as where a bent arm's wide sleeve hangs before the trunk.
+  Field trunk_side(const Field& trunk_cloth) const;
+  Field arm_side(const Field& sleeve) const;
+
   // Positive where a place is nearer to the arm than to the trunk.
   double nearer_to_arm(const Vector3d& point) const { return trunk_.field(point) - arm_.field(point); }
 
@@ -25,6 +30,8 @@ class Underarm {
   std::optional<double> start_y() const { return start_y_; }
 
  private:
+  Field own_side(const Field& layer, const Tube& own, const Tube& other) const;
+
   Tube trunk_, arm_;
   double side_;
   std::optional<double> start_y_;
