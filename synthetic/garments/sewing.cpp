@@ -5,9 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "fmt/format.h"
 #include "scenes/error.h"
-#include "synthetic/garments/drape/drape.h"
 #include "synthetic/garments/drape/even_mesh.h"
+#include "synthetic/garments/drape/fall.h"
 #include "synthetic/garments/garment_shape.h"
 #include "synthetic/geometry/contour.h"
 #include "synthetic/geometry/self_intersection.h"
@@ -155,7 +156,9 @@ std::vector<Contouring> contourings(const GarmentShape& shape) {
 // itself or into what is worn beneath.
 std::optional<Mesh> put_on(const Contouring& way, const GarmentShape& shape, const Body& body,
                            const std::vector<Garment>& inner, double edge_m) {
-  Mesh mesh = contour(way.solid, shape.box, way.step_m);
+  std::optional<Mesh> solid = closed_contour(way.solid, shape.box, way.step_m);
+  if (!solid) return std::nullopt;
+  Mesh mesh = std::move(*solid);
   for (const RimCut& cut : shape.cuts) mesh = largest_part(cut_off(std::move(mesh), cut.beyond));
   if (!cut_as_planned(mesh, shape.cuts.size())) return std::nullopt;
   for (const Level& seam : shape.seams) split_along(mesh, seam);
@@ -173,39 +176,6 @@ CollaredCloth sewn_together(const GarmentShape& shape, Mesh cloth, const Body& b
   return plain;
 }
 
-// Lets the cloth fall, and goes on twice at most where it does not come to rest. The cloth as it then lies.
-ClothRest let_fall(Cloth& cloth, const Wearer& wearer, DrapeParams params, Seed seed) {
-  constexpr int kMoreTimes = 2;
-  DrapeResult result;
-  for (int time = 0; time <= kMoreTimes && !result.converged; ++time) {
-    result = drape(cloth, wearer, params, seed);
-    cloth.mesh.vertices = result.vertices;
-    params.grow_part = params.ruffle_m = 0;
-  }
-  return {result.converged, result.speed_m_per_s, result.strain_p95};
-}
-
-// Lets the cloth fall in its final triangles. Where they cut through the body between their corners, the cloth is kept
-// further off, as long as that takes, and held no more. Throws InputError where it does not help.
-ClothRest let_fall_clear(Cloth& cloth, Wearer wearer, const DrapeParams& params, const Mesh& body, Seed seed) {
-  constexpr int kRounds = 5;
-  for (int round = 0; round < kRounds; ++round) {
-    const ClothRest rest = let_fall(cloth, wearer, params, seed);
-    const std::vector<int> crossing = crossing_triangles(cloth.mesh, body);
-    if (crossing.empty()) return rest;
-    std::set<int> corners;
-    for (int t : crossing)
-      for (int k = 0; k < 3; ++k) corners.insert(cloth.mesh.triangles[t][k]);
-    for (int i : corners) {
-      wearer.clearance_m[i] += 0.5 * kClearance;
-      cloth.held[i] = 0;
-    }
-  }
-  throw InputError("garment.cloth_edge_m",
-                   "found triangles too large to lie on this body without cutting through it; "
-                   "expected a smaller edge");
-}
-
 Garment draped(const GarmentSpec& spec, const GarmentShape& shape, const CollaredCloth& sewn, const Body& body,
                const std::vector<Garment>& inner, Seed seed) {
   const Mesh& cut = sewn.mesh;
@@ -216,7 +186,7 @@ Garment draped(const GarmentSpec& spec, const GarmentShape& shape, const Collare
   Cloth cloth = cloth_as_cut(cut, shape.fullness, held);
   if (!sewn.places.empty()) cloth.bending = sewn.bending(cloth.features);
   Wearer wearer{&skin, std::vector<double>(cut.vertices.size(), kClearance), joined(inner), 0};
-  const ClothRest coarse = let_fall(cloth, wearer, params, seed);
+  const ClothRest coarse = let_fall_first(cloth, wearer, params, seed);
 
   const Mesh fine_cut = subdivided(cut, cloth.features);
   Cloth fine = halved(cloth, cut, shape.fullness);
@@ -264,9 +234,12 @@ Garment sewn_garment(const GarmentSpec& asked, const Body& body, const std::vect
       if (auto cut = put_on(way, shape, body, inner, edge_m))
         return draped(spec, shape, sewn_together(shape, std::move(*cut), body, edge_m), body, inner, seed);
   }
+  const bool top = spec.kind == "shirt" || spec.kind == "dress";
   throw InputError("garment." + asked.kind,
-                   "found cloth that runs into itself on this body; expected limbs that stand "
-                   "clear of the trunk and of one another");
+                   fmt::format("found cloth that runs into itself on this body; expected {}, or a smaller "
+                               "garment.cloth_edge_m",
+                               top ? "arms further off the trunk (body.arm_angle_deg), or a shorter garment.sleeve"
+                                   : "legs further apart, or a shorter garment.length"));
 }
 
 }  // namespace dressform

@@ -338,7 +338,7 @@ void project_to_surface(const Field& field, std::vector<Vector3d>& points, int i
   });
 }
 
-Mesh contour(const Field& field, const Eigen::AlignedBox3d& box, double step_m) {
+std::optional<Mesh> closed_contour(const Field& field, const Eigen::AlignedBox3d& box, double step_m) {
   for (int attempt = 0; attempt < 5; ++attempt) {
     const Vector3d shift = attempt * Vector3d(0.13, 0.17, 0.19);
     Mesh mesh = DualMesher(Sampler(field, box, step_m, shift).run()).run();
@@ -347,7 +347,13 @@ Mesh contour(const Field& field, const Eigen::AlignedBox3d& box, double step_m) 
     relax(field, mesh, 3);
     return mesh;
   }
-  throw std::runtime_error("contour: no placement of the grid gives a closed manifold");
+  return std::nullopt;
+}
+
+Mesh contour(const Field& field, const Eigen::AlignedBox3d& box, double step_m) {
+  std::optional<Mesh> mesh = closed_contour(field, box, step_m);
+  if (!mesh) throw std::runtime_error("contour: no placement of the grid gives a closed manifold");
+  return std::move(*mesh);
 }
 
 }  // namespace dressform

@@ -41,6 +41,12 @@ TEST(Contour, ClosedWhereverSheetsPinch) {
   }
 }
 
+TEST(Contour, SaysWhereNothingCloses) {
+  const auto half_space = [](const Vector3d& p) { return p.y() - 0.01; };  // goes on beyond the box
+  EXPECT_FALSE(closed_contour(half_space, kBox, 0.008));
+  EXPECT_THROW(contour(half_space, kBox, 0.008), std::runtime_error);
+}
+
 TEST(Contour, NothingInsideIsAnError) {
   EXPECT_THROW(contour([](const Vector3d&) { return 1.0; }, kBox, 0.008), std::runtime_error);
 }
