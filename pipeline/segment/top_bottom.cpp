@@ -10,6 +10,7 @@
 #include "pipeline/segment/bottom_kind.h"
 #include "pipeline/segment/cloth_zones.h"
 #include "pipeline/segment/hem_curve.h"
+#include "pipeline/segment/hem_edges.h"
 #include "pipeline/segment/hem_evidence.h"
 #include "pipeline/segment/trunk_grid.h"
 #include "pipeline/segment/view_models.h"
@@ -68,15 +69,17 @@ class Divider {
       if (area(kSureBottom) < kLeastSeed_mm2) continue;
       trace();
       const HemEvidence evidence = judged();
-      if (!(differ(evidence) ? evidence.color_nats > most_nats : forked && hem.empty())) continue;
-      most_nats = differ(evidence) ? evidence.color_nats : 0;
+      if (!differ(evidence) || evidence.color_nats <= most_nats) continue;
+      most_nats = evidence.color_nats;
       hem = hem_;
       nats = nats_;
     }
     zones_ = low;
     hem_ = hem;
     nats_ = nats;
-    return !hem.empty();
+    nats_.resize(views_.size());
+    if (hem.empty() && forked) trace_edges();
+    return !hem_.empty();
   }
 
   bool differ(const HemEvidence& evidence) const {
@@ -131,6 +134,19 @@ class Divider {
         if (!zones_[k].empty()) split_by_curve(k, 0.02, top[k], bottom[k]);
     }
     weigh_colors(top, bottom);
+  }
+
+  // For garments of the same colours: where one hangs over the other.
+  void trace_edges() {
+    std::vector<cv::Mat> told(views_.size());
+    for (std::size_t k = 0; k < views_.size(); ++k)
+      if (!zones_[k].empty()) told[k] = (zones_[k] != kNowhere) & (zones_[k] != kSleeve);
+    const double hand = 0.05 * (limbs_.top_y - limbs_.floor_y);
+    const cv::Mat nats = edge_nats(views_, told, grid_, limbs_.crotch_y - 2 * hand, limbs_.armpit_y - hand);
+    hem_ = trace_hem(nats, params_.row_price);
+    hem_ = trace_hem(near_plane(nats, hem_, kOffPlane_rows, kBinNats), params_.row_price);
+    for (std::size_t k = 0; k < views_.size(); ++k)
+      if (!views_[k].box.empty()) nats_[k] = cv::Mat::zeros(views_[k].box.size(), CV_32F);
   }
 
   // Per pixel, the colour's nats in favour of top.
