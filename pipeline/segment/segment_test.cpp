@@ -148,6 +148,19 @@ TEST(Segment, SkirtOfNearlyTheShirtsColourIsItsOwnGarment) {
   }
 }
 
+// Legs say that there are two garments, and the shirt's edge says where they meet.
+TEST(Segment, TrousersOfTheShirtsColour) {
+  SceneOptions options;
+  options.top_color = options.bottom_color = [](const Vector3d&) { return cv::Vec3b(150, 60, 30); };
+  options.shirt_ease_m = 0.022;
+  const auto scene = analytic::make_scene(options);
+  for (const auto& variant : Segment::names()) {
+    const auto found = run(variant, scene);
+    EXPECT_EQ(found.kinds, (std::map<std::string, std::string>{{"top", "shirt"}, {"bottom", "trousers"}}));
+    expect_labels(scene, found, 0.85, variant);
+  }
+}
+
 // Below a printed shirt, a hand's width of shorts: 15 pixels here; at the sides the hands hang before it.
 TEST(Segment, BottomOfWhichLittleShows) {
   SceneOptions options;
