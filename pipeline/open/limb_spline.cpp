@@ -180,8 +180,8 @@ std::vector<double> nearer_to_arm(const Opening& opening, const Mesh& mesh, cons
   return result;
 }
 
-// The vertex in the middle of what lies beyond the rim: the farthest along, among those over the right part of the
-// body.
+// The pole, a vertex in the middle of what lies beyond the rim: the farthest along among those over the right part of
+// the body; of an arm, not where it touches the trunk.
 Cap make_cap(const Opening& opening, const RimCurve& curve, const Mesh& mesh, const std::vector<BodyPart>& parts,
              const std::vector<double>& nearer, const BodyLimbs& limbs) {
   Cap cap;
@@ -190,8 +190,9 @@ Cap make_cap(const Opening& opening, const RimCurve& curve, const Mesh& mesh, co
     const Vector3d& v = mesh.vertices[i];
     const double along = opening.along(v);
     cap.beyond.push_back(std::min(along - curve.at(opening.angle(v)), nearer[i]));
-    if (!belongs(opening, parts[i], v, limbs) || along <= farthest) continue;
-    farthest = along;
+    const double far = std::isfinite(nearer[i]) ? cap.beyond.back() : along;
+    if (!belongs(opening, parts[i], v, limbs) || far <= farthest) continue;
+    farthest = far;
     cap.pole = static_cast<int>(i);
   }
   return cap;

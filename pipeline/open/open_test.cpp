@@ -171,6 +171,23 @@ TEST(ClosedBottomKind, IsWhatTheSurfaceIs) {
   EXPECT_EQ(kind(), "unknown");
 }
 
+TEST(OpeningNear, ShouldersBelongToShortSleeves) {
+  const BodyLimbs limbs = find_limbs(figure::body_mesh());
+  std::vector<Opening> openings;
+  for (const char* name : {"neck", "left_cuff", "right_cuff", "hem"}) openings.push_back({name});
+  const auto near = [&](const Vector3d& point, BodyPart part) {
+    return opening_near(openings, point, part, limbs)->name;
+  };
+  for (const double side : {1.0, -1.0}) {
+    const Vector3d& root = limbs.arm(side > 0 ? 0 : 1)->root;
+    const std::string cuff = side > 0 ? "left_cuff" : "right_cuff";
+    EXPECT_EQ(near(root + Vector3d(side * 0.03, 0.03, 0), BodyPart::torso), cuff);
+    EXPECT_EQ(near(root + Vector3d(0, -0.1, 0), side > 0 ? BodyPart::left_arm : BodyPart::right_arm), cuff);
+    EXPECT_EQ(near(root + Vector3d(-side * 0.06, 0.1, 0), BodyPart::torso), "neck");
+    EXPECT_EQ(near({side * 0.25, limbs.crotch_y, 0}, BodyPart::torso), "hem");
+  }
+}
+
 OpenGarments run(const std::string& variant, const figure::Capture& c, const ClosedGarments& closed) {
   return Open::at(variant).run(c.session, c.calibration, c.naked, c.registration, c.segmentation, closed, {}, 1);
 }

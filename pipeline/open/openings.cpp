@@ -117,6 +117,21 @@ std::string closed_bottom_kind(const Mesh& closed, const BodyLimbs& limbs, const
   return whole >= kAll * levels ? "skirt" : otherwise;
 }
 
+namespace {
+
+// Whether a point lies on a shoulder, further out than the arm's axis where it leaves the trunk: short sleeves end
+// there, although the body below counts as trunk. 0 left, 1 right, -1 neither.
+int shoulder_at(const Vector3d& point, const BodyLimbs& limbs) {
+  for (int side = 0; side < 2; ++side) {
+    const Limb* arm = limbs.arm(side);
+    if (!arm || point.y() < arm->root.y()) continue;
+    if ((point - arm->root).dot(side == 0 ? limbs.left : Vector3d(-limbs.left)) > 0) return side;
+  }
+  return -1;
+}
+
+}  // namespace
+
 const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,
                             const BodyLimbs& limbs) {
   const auto named = [&](const char* name) -> const Opening* {
@@ -126,8 +141,9 @@ const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d
   };
   const bool top = named("neck") != nullptr;
   if (top) {
-    if (part == BodyPart::left_arm) return named("left_cuff");
-    if (part == BodyPart::right_arm) return named("right_cuff");
+    const int shoulder = part == BodyPart::torso ? shoulder_at(point, limbs) : -1;
+    if (part == BodyPart::left_arm || shoulder == 0) return named("left_cuff");
+    if (part == BodyPart::right_arm || shoulder == 1) return named("right_cuff");
     return named(point.y() > (limbs.armpit_y + limbs.waist_y) / 2 ? "neck" : "hem");
   }
   if (part == BodyPart::left_arm || part == BodyPart::right_arm) part = BodyPart::torso;
