@@ -55,6 +55,14 @@ std::array<End, kEndCount> ends_of(const GarmentExtent& extent, const BodyLimbs&
   return ends;
 }
 
+// Whether a point of a sleeve lies on the side of the trunk: points there may be of either, or of what bridges them.
+bool faces_trunk(const End& cuff, int side, const Vector3d& p, const BodyLimbs& limbs) {
+  constexpr double kFacing = 0.6;  // cosine
+  Vector3d out = p - cuff.origin;
+  out -= cuff.axis * cuff.axis.dot(out);
+  return out.dot(side == 0 ? Vector3d(-limbs.left) : limbs.left) > kFacing * out.norm();
+}
+
 // The end that a point may be near; kEndCount for none.
 int end_near(const Vector3d& p, const std::string& garment, const GarmentExtent& extent, const MeshQuery& naked,
              const BodyLimbs& limbs) {
@@ -116,8 +124,9 @@ GarmentCloud carried_on(const GarmentCloud& cloud, const std::string& garment, c
   for (std::size_t i = 0; i < cloud.cloud.points.size(); ++i) {
     const Vector3d& p = cloud.cloud.points[i];
     const int end = end_near(p, garment, extent, naked, limbs);
-    if (end != kEndCount && ends[end].along_of(p) > ends[end].along - kEnds_m - kBand_m)
-      sectors[end][ends[end].sector(p)].push_back(static_cast<int>(i));
+    if (end == kEndCount || ends[end].along_of(p) < ends[end].along - kEnds_m - kBand_m) continue;
+    if (end <= right_cuff && faces_trunk(ends[end], end, p, limbs)) continue;
+    sectors[end][ends[end].sector(p)].push_back(static_cast<int>(i));
   }
   GarmentCloud result;
   result.cloud.points = cloud.cloud.points;
