@@ -84,7 +84,7 @@ LegVotes leg_votes(const std::vector<Vector3d>& points, const BodyLimbs& limbs) 
 std::string bottom_kind(const std::vector<Vector3d>& points, const BodyLimbs& limbs) {
   if (!limbs.left_leg || !limbs.right_leg) return "skirt";  // legs that are not apart
   const LegVotes votes = leg_votes(points, limbs);
-  return votes.spans > votes.parts ? "skirt" : "trousers";
+  return votes.parts > votes.spans ? "trousers" : "skirt";  // trousers have to show legs
 }
 
 std::string top_kind(const std::vector<Vector3d>& points, const BodyLimbs& limbs) {

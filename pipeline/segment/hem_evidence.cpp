@@ -15,8 +15,19 @@ namespace {
 
 constexpr float kMargin_m = 0.012, kWindow_m = 0.12;  // from the curve: what is asked
 constexpr int kSectorColumns = 6;                     // 30 degrees learn, the next 30 are asked
+constexpr double kFine_mm = 3.5;                      // pixels as far apart as that are asked
 constexpr float kMostNats = 3;                        // that one pixel may say
 constexpr std::array<float, 8> kGains{0.6f, 0.7f, 0.8f, 0.9f, 1.11f, 1.25f, 1.43f, 1.67f};
+
+// Every step-th pixel of every step-th row.
+cv::Mat thinned(const cv::Mat& image, int step) {
+  if (image.empty() || step == 1) return image;
+  cv::Mat result((image.rows + step - 1) / step, (image.cols + step - 1) / step, image.type());
+  for (int v = 0; v < result.rows; ++v)
+    for (int u = 0; u < result.cols; ++u)
+      std::copy_n(image.ptr(v * step, u * step), image.elemSize(), result.ptr(v, u));
+  return result;
+}
 
 bool beside(float height_m) { return std::abs(height_m) > kMargin_m && std::abs(height_m) < kWindow_m; }
 
@@ -100,8 +111,17 @@ std::vector<Answer> answers(const Sides& sides, const std::vector<cv::Mat>& imag
 }  // namespace
 
 HemEvidence hem_evidence(const std::vector<ViewEvidence>& views, const std::vector<CurveOnView>& curve) {
-  const Sides sides = sides_of(curve);
-  const auto images = lab_images(views);
+  std::vector<cv::Mat> images;
+  std::vector<CurveOnView> asked;
+  std::vector<double> px_mm2;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const double px_mm = views[k].box.empty() ? 1 : pixel_size_mm(views[k]);
+    const int step = std::max(1, static_cast<int>(kFine_mm / px_mm));
+    images.push_back(thinned(views[k].lab, step));
+    asked.push_back({thinned(curve[k].above_m, step), thinned(curve[k].column, step)});
+    px_mm2.push_back(std::pow(px_mm * step, 2));
+  }
+  const Sides sides = sides_of(asked);
   std::vector<Answer> alike = answers(sides, images, 1);  // under the gain that brings the sides closest
   for (const float gain : kGains) {
     const auto found = answers(sides, images, gain);
@@ -112,9 +132,8 @@ HemEvidence hem_evidence(const std::vector<ViewEvidence>& views, const std::vect
   double sum = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
     if (curve[k].above_m.empty()) continue;
-    const double px_mm2 = std::pow(pixel_size_mm(views[k]), 2);
-    const double weight = std::min(alike[k].count[0], alike[k].count[1]) * px_mm2;
-    evidence.below_mm2 += alike[k].count[1] * px_mm2;
+    const double weight = std::min(alike[k].count[0], alike[k].count[1]) * px_mm2[k];
+    evidence.below_mm2 += alike[k].count[1] * px_mm2[k];
     evidence.color_nats += weight * alike[k].nats_of_both();
     evidence.told_above += weight * alike[k].mean(alike[k].right, 0);
     evidence.told_below += weight * alike[k].mean(alike[k].right, 1);

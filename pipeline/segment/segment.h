@@ -10,8 +10,10 @@
 namespace dressform {
 
 struct Segmentation {
-  std::map<std::string, cv::Mat> labels;     // by sensor; uint8 Label at colour size, raw (distorted) pixels
-  std::map<std::string, std::string> kinds;  // "top" -> "shirt"; "bottom" -> "trousers" or "skirt"; absent: not worn
+  std::map<std::string, cv::Mat> labels;  // by sensor; uint8 Label at colour size, raw (distorted) pixels
+  // "top" -> "shirt", or "dress" where one garment hangs below the crotch; "bottom" -> "trousers" or "skirt"; absent:
+  // not worn, or not to be told from the top (a skirt of the shirt's own print passes for a dress).
+  std::map<std::string, std::string> kinds;
 
   template <class Archive>
   void serialize(Archive& archive) {

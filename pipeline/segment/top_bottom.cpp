@@ -21,6 +21,7 @@ namespace {
 constexpr float kBinNats = 6;            // most that one cell of the curve's grid says
 constexpr float kFullCell = 6;           // pixels from which a cell counts in full
 constexpr float kSeedNats = 4;           // of a cell that is surely top or bottom
+constexpr double kPlainNats = 2.5;       // no other curve can tell the colours much better
 constexpr int kOffPlane_rows = 14;       // that a hem may lie from the plane through it
 constexpr double kLeastSeed_mm2 = 1500;  // of cloth to learn the bottom's colours from
 
@@ -73,6 +74,7 @@ class Divider {
       most_nats = evidence.color_nats;
       hem = hem_;
       nats = nats_;
+      if (most_nats > kPlainNats) break;
     }
     zones_ = low;
     hem_ = hem;
