@@ -28,6 +28,8 @@ Sections horizontal_sections(const Mesh& mesh, double step_m = 0.01);
 bool contains(const SectionLoop& loop, const Vector3d& point);
 
 enum class BodyPart : unsigned char { torso, head, left_arm, right_arm, left_leg, right_leg };
+inline bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
+inline bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
 
 // An arm or a leg: a straight axis from where it leaves the torso to its end.
 struct Limb {
@@ -51,6 +53,10 @@ struct BodyLimbs {
 
   const Limb* arm(int side) const;  // 0 left, 1 right; null where there is none
   const Limb* leg(int side) const;
+  Vector3d outwards(int side) const { return side == 0 ? left : Vector3d(-left); }  // away from the body's middle
+  Vector3d hips() const { return (left_leg->root + right_leg->root) / 2; }          // middle of the legs, both known
+  // Of one of the mesh's triangles; of none (-1), the torso.
+  BodyPart part_of(int triangle) const { return triangle < 0 ? BodyPart::torso : triangle_parts[triangle]; }
 };
 
 // Limbs by the topology of the sections: two legs join at the crotch going up, arms join the torso at the armpits, the

@@ -10,8 +10,6 @@ namespace dressform {
 // it does not.
 std::array<double, 2> sleeve_ends(const Mesh& garment, const BodyLimbs& limbs);
 
-inline bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
-
 // For each triangle of the body, whether it belongs to an arm where the garment no longer encloses it (more than
 // `margin_m` beyond the sleeve's end): such a triangle may lie beside the cloth, never inside it.
 std::vector<char> bare_arm_triangles(const Mesh& body, const BodyLimbs& limbs, const Mesh& garment, double margin_m);

@@ -14,8 +14,7 @@ PartedBody parted(const Mesh& body) {
   const BodyLimbs limbs = find_limbs(body);
   Mesh trunk{body.vertices, {}}, arms{body.vertices, {}};
   for (std::size_t k = 0; k < body.triangles.size(); ++k) {
-    const bool arm = limbs.triangle_parts[k] == BodyPart::left_arm || limbs.triangle_parts[k] == BodyPart::right_arm;
-    (arm ? arms : trunk).triangles.push_back(body.triangles[k]);
+    (is_arm(limbs.triangle_parts[k]) ? arms : trunk).triangles.push_back(body.triangles[k]);
   }
   return {MeshQuery(trunk), MeshQuery(arms)};
 }

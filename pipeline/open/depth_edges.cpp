@@ -106,8 +106,7 @@ void add_sample(const DepthView& view, const Vector2d& inside, const Vector2d& e
   if (!hit || !from) return;
   const double cosine = -closed.normal(hit->triangle).dot(ray) / ray.norm();
   if (cosine < params.least_cosine) return;
-  const int triangle = naked.closest(hit->point).triangle;
-  const BodyPart below = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
+  const BodyPart below = limbs.part_of(naked.closest(hit->point).triangle);
   const Opening* opening = opening_near(openings, hit->point, below, limbs);
   if (!opening || opening->shape == Opening::Shape::polar) return;
   const double along = opening->along(hit->point);

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/common/sector.h"
 #include "pipeline/open/cut.h"
 #include "pipeline/open/depth_edges.h"
 #include "pipeline/open/mask_edges.h"
 #include "pipeline/open/open.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/rim_fit.h"
-#include "pipeline/surface/tucked.h"
 
 namespace dressform {
 namespace {
@@ -52,25 +52,22 @@ struct Scene {
   std::vector<DepthView> views;
   MeshQuery naked;
   BodyLimbs limbs;
-  bool tucked = false;  // the top is worn under the bottom
+  bool tucked;  // the top is worn under the bottom
 };
 
 // Parts of the body under the vertices.
 std::vector<BodyPart> parts_below(const Mesh& mesh, const Scene& scene) {
   std::vector<BodyPart> parts;
-  for (const Vector3d& v : mesh.vertices) {
-    const int triangle = scene.naked.closest(v).triangle;
-    parts.push_back(triangle < 0 ? BodyPart::torso : scene.limbs.triangle_parts[triangle]);
-  }
+  for (const Vector3d& v : mesh.vertices) parts.push_back(scene.limbs.part_of(scene.naked.closest(v).triangle));
   return parts;
 }
 
 bool belongs(const Opening& opening, BodyPart part, const Vector3d& point, const BodyLimbs& limbs) {
   if (opening.name == "left_cuff") return part == BodyPart::left_arm;
   if (opening.name == "right_cuff") return part == BodyPart::right_arm;
-  if (part == BodyPart::left_arm || part == BodyPart::right_arm) return false;
+  if (is_arm(part)) return false;
   if (opening.name == "left_ankle" || opening.name == "right_ankle") {
-    const double side = (point - (limbs.left_leg->root + limbs.right_leg->root) / 2).dot(limbs.left);
+    const double side = (point - limbs.hips()).dot(limbs.left);
     return point.y() < limbs.crotch_y && (side > 0) == (opening.name == "left_ankle");
   }
   return true;
@@ -81,11 +78,9 @@ std::vector<RimSample> support_ends(const PointCloud& support, const Opening& op
   constexpr int kSectors = 24;
   std::vector<std::vector<double>> sectors(kSectors);
   for (const Vector3d& p : support.points) {
-    const int triangle = scene.naked.closest(p).triangle;
-    const BodyPart part = triangle < 0 ? BodyPart::torso : scene.limbs.triangle_parts[triangle];
+    const BodyPart part = scene.limbs.part_of(scene.naked.closest(p).triangle);
     if (!belongs(opening, part, p, scene.limbs)) continue;
-    const int sector = static_cast<int>((opening.angle(p) + M_PI) / (2 * M_PI) * kSectors);
-    sectors[std::clamp(sector, 0, kSectors - 1)].push_back(opening.along(p));
+    sectors[sector_of(opening.angle(p), kSectors)].push_back(opening.along(p));
   }
   std::vector<RimSample> samples;
   std::vector<double> ends;
@@ -302,11 +297,12 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
 OpenGarments limb_spline(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                          const Registration& registration, const Segmentation& segmentation,
                          const ClosedGarments& closed, const LimbSplineParams& params) {
-  Scene scene{session, segmentation, depth_views(session, calibration, registration), MeshQuery(naked.body),
-              find_limbs(naked.body, front_from_prior(session, registration))};
-  const auto top = closed.garments.find("top"), bottom = closed.garments.find("bottom");
-  if (top != closed.garments.end() && bottom != closed.garments.end())
-    scene.tucked = is_tucked(top->second.support, bottom->second.support, scene.naked, scene.limbs);
+  const Scene scene{session,
+                    segmentation,
+                    depth_views(session, calibration, registration),
+                    MeshQuery(naked.body),
+                    find_limbs(naked.body, front_from_prior(session, registration)),
+                    closed.tucked};
   OpenGarments opened;
   for (const auto& [name, garment] : closed.garments) {
     auto open = open_garment(name, garment, scene, params);

@@ -105,8 +105,7 @@ std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& se
       if (edge.beyond == over) continue;  // where they meet, it is the outer one that ends
       const auto point = rim_point(color, edge, closed, naked, params);
       if (!point) continue;
-      const int triangle = naked.closest(point->point).triangle;
-      const BodyPart part = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
+      const BodyPart part = limbs.part_of(naked.closest(point->point).triangle);
       const Opening* opening = opening_near(openings, point->point, part, limbs);
       if (!opening) continue;
       const double along = opening->along(point->point), rise = opening->along(point->beyond) - along;

@@ -47,6 +47,17 @@ Opening of_limb(const std::string& name, const Limb& limb, BodyPart part, const 
   return opening;
 }
 
+// Whether a point lies on a shoulder, further out than the arm's axis where it leaves the trunk: short sleeves end
+// there, although the body below counts as trunk. 0 left, 1 right, -1 neither.
+int shoulder_at(const Vector3d& point, const BodyLimbs& limbs) {
+  for (int side = 0; side < 2; ++side) {
+    const Limb* arm = limbs.arm(side);
+    if (!arm || point.y() < arm->root.y()) continue;
+    if ((point - arm->root).dot(limbs.outwards(side)) > 0) return side;
+  }
+  return -1;
+}
+
 }  // namespace
 
 double Opening::along(const Vector3d& point) const {
@@ -117,21 +128,6 @@ std::string closed_bottom_kind(const Mesh& closed, const BodyLimbs& limbs, const
   return whole >= kAll * levels ? "skirt" : otherwise;
 }
 
-namespace {
-
-// Whether a point lies on a shoulder, further out than the arm's axis where it leaves the trunk: short sleeves end
-// there, although the body below counts as trunk. 0 left, 1 right, -1 neither.
-int shoulder_at(const Vector3d& point, const BodyLimbs& limbs) {
-  for (int side = 0; side < 2; ++side) {
-    const Limb* arm = limbs.arm(side);
-    if (!arm || point.y() < arm->root.y()) continue;
-    if ((point - arm->root).dot(side == 0 ? limbs.left : Vector3d(-limbs.left)) > 0) return side;
-  }
-  return -1;
-}
-
-}  // namespace
-
 const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,
                             const BodyLimbs& limbs) {
   const auto named = [&](const char* name) -> const Opening* {
@@ -146,13 +142,11 @@ const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d
     if (part == BodyPart::right_arm || shoulder == 1) return named("right_cuff");
     return named(point.y() > (limbs.armpit_y + limbs.waist_y) / 2 ? "neck" : "hem");
   }
-  if (part == BodyPart::left_arm || part == BodyPart::right_arm) part = BodyPart::torso;
+  if (is_arm(part)) part = BodyPart::torso;
   if (point.y() > (limbs.waist_y + limbs.crotch_y) / 2 || (part == BodyPart::torso && point.y() > limbs.crotch_y))
     return named("waist");
   if (named("hem")) return named("hem");
-  const Vector3d middle = limbs.left_leg && limbs.right_leg
-                              ? Vector3d((limbs.left_leg->root + limbs.right_leg->root) / 2)
-                              : Vector3d::Zero();
+  const Vector3d middle = limbs.left_leg && limbs.right_leg ? limbs.hips() : Vector3d::Zero();
   const double side = (point - middle).dot(limbs.left);
   return named(part == BodyPart::left_leg || (part != BodyPart::right_leg && side > 0) ? "left_ankle" : "right_ankle");
 }

@@ -43,7 +43,7 @@ float part_nats(const ViewEvidence& view, int v, int u) {
   const auto part = static_cast<BodyPart>(code);
   const float end = view.limb_end.at<float>(v, u);
   if (part == BodyPart::head) return -kHeadNats;
-  if ((part == BodyPart::left_arm || part == BodyPart::right_arm) && end > 0.85f) return -kHandNats;
+  if (is_arm(part) && end > 0.85f) return -kHandNats;
   if ((part == BodyPart::left_leg || part == BodyPart::right_leg) && end > 0.93f) return -kFootNats;
   return 0;
 }

@@ -49,7 +49,7 @@ std::vector<cv::Mat> cloth_zones(const std::vector<ViewEvidence>& views, const s
     each_cloth_pixel(views[k], cloth[k], [&](int v, int u) {
       const auto part = static_cast<BodyPart>(views[k].part.at<uchar>(v, u));
       const float y = views[k].place_m.at<cv::Vec3f>(v, u)[1];
-      const bool arm = part == BodyPart::left_arm || part == BodyPart::right_arm;
+      const bool arm = is_arm(part);
       Zone zone = kBetween;
       if (arm && views[k].limb_end.at<float>(v, u) < kSleeveEnd && y > limbs.crotch_y)
         zone = kSleeve;

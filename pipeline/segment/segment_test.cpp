@@ -61,6 +61,15 @@ TEST(HemCurve, StaysNearItsPlane) {
   }
 }
 
+// Every variant finds these garments, where they are.
+void expect_found(const AnalyticScene& scene, const std::map<std::string, std::string>& kinds) {
+  for (const auto& variant : Segment::names()) {
+    const auto found = run(variant, scene);
+    EXPECT_EQ(found.kinds, kinds) << variant;
+    expect_labels(scene, found, 0.85, variant);
+  }
+}
+
 TEST(Segment, PlainClothes) {
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, plain());
@@ -127,11 +136,7 @@ TEST(Segment, DressIsOneGarmentWhateverItsPrint) {
   for (const auto& print : {std::function<cv::Vec3b(const Vector3d&)>(strewn), {plaid}}) {
     options.top_color = print;
     const auto scene = analytic::make_scene(options);
-    for (const auto& variant : Segment::names()) {
-      const auto found = run(variant, scene);
-      EXPECT_EQ(found.kinds, (std::map<std::string, std::string>{{"top", "dress"}}));
-      expect_labels(scene, found, 0.85, variant);
-    }
+    expect_found(scene, {{"top", "dress"}});
   }
 }
 
@@ -141,11 +146,7 @@ TEST(Segment, SkirtOfNearlyTheShirtsColourIsItsOwnGarment) {
   options.top_color = [](const Vector3d&) { return cv::Vec3b(40, 60, 25); };
   options.bottom_color = [](const Vector3d&) { return cv::Vec3b(60, 38, 28); };
   const auto scene = analytic::make_scene(options);
-  for (const auto& variant : Segment::names()) {
-    const auto found = run(variant, scene);
-    EXPECT_EQ(found.kinds, (std::map<std::string, std::string>{{"top", "shirt"}, {"bottom", "skirt"}}));
-    expect_labels(scene, found, 0.85, variant);
-  }
+  expect_found(scene, {{"top", "shirt"}, {"bottom", "skirt"}});
 }
 
 // Legs say that there are two garments, and the shirt's edge says where they meet.
@@ -154,11 +155,7 @@ TEST(Segment, TrousersOfTheShirtsColour) {
   options.top_color = options.bottom_color = [](const Vector3d&) { return cv::Vec3b(150, 60, 30); };
   options.shirt_ease_m = 0.022;
   const auto scene = analytic::make_scene(options);
-  for (const auto& variant : Segment::names()) {
-    const auto found = run(variant, scene);
-    EXPECT_EQ(found.kinds, (std::map<std::string, std::string>{{"top", "shirt"}, {"bottom", "trousers"}}));
-    expect_labels(scene, found, 0.85, variant);
-  }
+  expect_found(scene, {{"top", "shirt"}, {"bottom", "trousers"}});
 }
 
 // Below a printed shirt, a hand's width of shorts: 15 pixels here; at the sides the hands hang before it.

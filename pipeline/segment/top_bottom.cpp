@@ -60,13 +60,14 @@ class Divider {
   // bottom's first colours are those low on the legs, at the lower end of the cloth, or those there that are foreign to
   // the top: the curve that tells the colours best stands.
   bool find_parting() {
-    const auto low = zones_, end = with_lower_end(low, views_, cloth_, limbs_, grid_);
+    const auto low = zones_;
     const bool forked = area(kSureBottom) >= params_.least_mm2 && goes_round_each_leg();
     double most_nats = -1;
     std::vector<int> hem;
     std::vector<cv::Mat> nats;
-    for (const auto& zones : {low, end, without_colors_of_top(end, views_, cloth_, limbs_)}) {
-      zones_ = zones;
+    for (int start = 0; start < 3; ++start) {
+      if (start == 1) zones_ = with_lower_end(low, views_, cloth_, limbs_, grid_);
+      if (start == 2) zones_ = without_colors_of_top(zones_, views_, cloth_, limbs_);
       if (area(kSureBottom) < kLeastSeed_mm2) continue;
       trace();
       const HemEvidence evidence = judged();
@@ -120,6 +121,11 @@ class Divider {
     return hem_evidence(views_, curve);
   }
 
+  std::vector<int> hem_of(const cv::Mat& nats) const {
+    const std::vector<int> first = trace_hem(nats, params_.row_price);
+    return trace_hem(near_plane(nats, first, kOffPlane_rows, kBinNats), params_.row_price);
+  }
+
   void trace() {
     std::vector<cv::Mat> top(views_.size()), bottom(views_.size());
     for (std::size_t k = 0; k < views_.size(); ++k) {
@@ -129,9 +135,7 @@ class Divider {
     }
     for (int round = 0; round < params_.rounds; ++round) {
       weigh_colors(top, bottom);
-      const cv::Mat nats = gathered_nats();
-      hem_ = trace_hem(nats, params_.row_price);
-      hem_ = trace_hem(near_plane(nats, hem_, kOffPlane_rows, kBinNats), params_.row_price);
+      hem_ = hem_of(gathered_nats());
       for (std::size_t k = 0; k < views_.size(); ++k)
         if (!zones_[k].empty()) split_by_curve(k, 0.02, top[k], bottom[k]);
     }
@@ -144,9 +148,7 @@ class Divider {
     for (std::size_t k = 0; k < views_.size(); ++k)
       if (!zones_[k].empty()) told[k] = (zones_[k] != kNowhere) & (zones_[k] != kSleeve);
     const double hand = 0.05 * (limbs_.top_y - limbs_.floor_y);
-    const cv::Mat nats = edge_nats(views_, told, grid_, limbs_.crotch_y - 2 * hand, limbs_.armpit_y - hand);
-    hem_ = trace_hem(nats, params_.row_price);
-    hem_ = trace_hem(near_plane(nats, hem_, kOffPlane_rows, kBinNats), params_.row_price);
+    hem_ = hem_of(edge_nats(views_, told, grid_, limbs_.crotch_y - 2 * hand, limbs_.armpit_y - hand));
     for (std::size_t k = 0; k < views_.size(); ++k)
       if (!views_[k].box.empty()) nats_[k] = cv::Mat::zeros(views_[k].box.size(), CV_32F);
   }

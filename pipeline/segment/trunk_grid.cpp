@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/common/sector.h"
+
 namespace dressform {
 
 TrunkGrid::TrunkGrid(const BodyLimbs& limbs) : axis(limbs.neck), floor_y(limbs.floor_y) {
-  if (limbs.left_leg && limbs.right_leg) axis = (limbs.left_leg->root + limbs.right_leg->root) / 2;
+  if (limbs.left_leg && limbs.right_leg) axis = limbs.hips();
   rows = std::max(8, static_cast<int>(std::ceil((limbs.top_y - limbs.floor_y + 0.1) / kRow_m)));
 }
 
 int TrunkGrid::column(const cv::Vec3f& place) const {
-  const double angle = std::atan2(place[0] - axis.x(), place[2] - axis.z()) + M_PI;
-  return std::clamp(static_cast<int>(angle / (2 * M_PI) * kColumns), 0, kColumns - 1);
+  return sector_of(std::atan2(place[0] - axis.x(), place[2] - axis.z()), kColumns);
 }
 
 int TrunkGrid::row(const cv::Vec3f& place) const {

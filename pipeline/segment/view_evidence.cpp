@@ -113,7 +113,7 @@ bool mannequin_moved(const DepthFacts& facts, double limit_mm) {
   for (int y = 0; y < facts.part.rows; ++y) {
     for (int x = 0; x < facts.part.cols; ++x) {
       const auto part = static_cast<BodyPart>(facts.part.at<uchar>(y, x));
-      const bool arm = part == BodyPart::left_arm || part == BodyPart::right_arm;
+      const bool arm = is_arm(part);
       if (part != BodyPart::head && !(arm && facts.limb_end.at<float>(y, x) > 0.85f)) continue;
       if (const float shift = facts.shift_mm.at<float>(y, x); !std::isnan(shift)) shifts.push_back(std::abs(shift));
     }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/common/sector.h"
+
 namespace dressform {
 namespace {
 
@@ -25,8 +27,7 @@ struct End {
   double along_of(const Vector3d& p) const { return (p - origin).dot(axis); }
   int sector(const Vector3d& p) const {
     const Vector3d d = p - origin;
-    const double turn = (std::atan2(d.dot(axis.cross(zero)), d.dot(zero)) + M_PI) / (2 * M_PI);
-    return std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1);
+    return sector_of(std::atan2(d.dot(axis.cross(zero)), d.dot(zero)), kSectors);
   }
 };
 
@@ -60,22 +61,21 @@ bool faces_trunk(const End& cuff, int side, const Vector3d& p, const BodyLimbs& 
   constexpr double kFacing = 0.6;  // cosine
   Vector3d out = p - cuff.origin;
   out -= cuff.axis * cuff.axis.dot(out);
-  return out.dot(side == 0 ? Vector3d(-limbs.left) : limbs.left) > kFacing * out.norm();
+  return -out.dot(limbs.outwards(side)) > kFacing * out.norm();
 }
 
 // The end that a point may be near; kEndCount for none.
 int end_near(const Vector3d& p, const std::string& garment, const GarmentExtent& extent, const MeshQuery& naked,
              const BodyLimbs& limbs) {
-  const int triangle = naked.closest(p).triangle;
-  const BodyPart part = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
-  if (part == BodyPart::left_arm || part == BodyPart::right_arm) {
+  const BodyPart part = limbs.part_of(naked.closest(p).triangle);
+  if (is_arm(part)) {
     const int side = part == BodyPart::left_arm ? 0 : 1;
     return extent.has_arm[side] ? side : kEndCount;
   }
   if (garment == "bottom" && p.y() > extent.top_y - kEnds_m) return upper;
   if (!extent.forked) return lower;
   if (p.y() > limbs.crotch_y) return kEndCount;
-  return (p - (limbs.left_leg->root + limbs.right_leg->root) / 2).dot(limbs.left) > 0 ? left_lower : right_lower;
+  return (p - limbs.hips()).dot(limbs.left) > 0 ? left_lower : right_lower;
 }
 
 // The normal of the cloth at one of a sector's last points, averaged over what lies alike beside it.

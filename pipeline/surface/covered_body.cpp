@@ -55,9 +55,6 @@ double lowest_of_arm(const Limb& arm, double along) {
   return std::min(arm.root.y(), arm.root.y() + arm.direction.y() * along);
 }
 
-bool is_arm(BodyPart part) { return part == BodyPart::left_arm || part == BodyPart::right_arm; }
-bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
-
 // Whether the points go round each leg: between the legs, a garment round both has points in front and behind.
 bool goes_round_each_leg(const std::vector<Vector3d>& points, const BodyLimbs& limbs, double bottom_y) {
   if (!limbs.left_leg || !limbs.right_leg) return false;
@@ -230,8 +227,7 @@ GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud
   std::vector<double> heights, arms[2], legs[2];
   std::vector<Vector3d> around_legs;
   for (const Vector3d& p : cloud.points) {
-    const int triangle = naked.closest(p).triangle;
-    const BodyPart part = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
+    const BodyPart part = limbs.part_of(naked.closest(p).triangle);
     if (is_arm(part) && garment == "top") {
       const int side = part == BodyPart::left_arm ? 0 : 1;
       arms[side].push_back(limbs.arm(side)->along(p));

@@ -120,8 +120,6 @@ cv::Mat without_mixed_ends(const cv::Mat& garment_mm, const DepthView& view, con
   return result;
 }
 
-bool is_leg(BodyPart part) { return part == BodyPart::left_leg || part == BodyPart::right_leg; }
-
 // The garment's depth image with what joins it outside the colour camera's picture and stands off the naked legs.
 cv::Mat extended_depth(const cv::Mat& garment_mm, const DepthView& view, const MeshQuery& naked, const BodyLimbs& limbs,
                        const GarmentCloudParams& params) {

@@ -242,6 +242,7 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
     if (!tucked) outer.emplace(Outer{MeshQuery(garment->mesh), extents[name].bottom_y});
     closed.garments.emplace(name, std::move(*garment));
   }
+  closed.tucked = tucked && closed.garments.size() == 2;
   return closed;
 }
 

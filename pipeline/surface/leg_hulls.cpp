@@ -26,7 +26,7 @@ LegHulls::LegHulls(const PointCloud& cloth, const Mesh& body, const BodyLimbs& l
   if (!extent.forked || !limbs.left_leg || !limbs.right_leg) return;
   known_ = true;
   top_y_ = limbs.crotch_y - kBelowCrotch_m;
-  middle_ = (limbs.left_leg->root + limbs.right_leg->root) / 2;
+  middle_ = limbs.hips();
   left_ = limbs.left;
   for (int side = 0; side < 2; ++side)
     legs_[side] = make_leg(side, cloth, body, limbs, extent.leg_bottom_y[side] - margin_m);
@@ -56,7 +56,7 @@ LegHulls::Leg LegHulls::make_leg(int side, const PointCloud& cloth, const Mesh& 
   }
   for (const Vector3d& p : cloth.points)
     if (((p - middle_).dot(left_) > 0) == (side == 0)) add(p, kCloth_m, true);
-  leg.inwards = flat(side == 0 ? Vector3d(-left_) : left_);
+  leg.inwards = -flat(limbs.outwards(side));
   for (int i = 0; i < levels; ++i) {
     Hull hull;
     std::vector<cv::Point2f> corners;

@@ -18,10 +18,11 @@ struct ClosedGarment {
 };
 struct ClosedGarments {
   std::map<std::string, ClosedGarment> garments;  // "top", "bottom"
+  bool tucked = false;                            // both are there, and the top is worn under the bottom
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(garments);
+    archive(garments, tucked);
   }
 };
 

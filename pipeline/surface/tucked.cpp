@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/common/sector.h"
+
 namespace dressform {
 namespace {
 
@@ -26,11 +28,8 @@ Ring ring_of(const PointCloud& cloud, const Vector3d& axis, const MeshQuery& nak
   Ring ring;
   for (const Vector3d& p : cloud.points) {
     if (p.y() < lowest) continue;
-    const int triangle = naked.closest(p).triangle;
-    const BodyPart part = triangle < 0 ? BodyPart::torso : limbs.triangle_parts[triangle];
-    if (part == BodyPart::left_arm || part == BodyPart::right_arm) continue;
-    const double turn = (std::atan2(p.z() - axis.z(), p.x() - axis.x()) + M_PI) / (2 * M_PI);
-    ring[std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1)].push_back({p.y(), &p});
+    if (is_arm(limbs.part_of(naked.closest(p).triangle))) continue;
+    ring[sector_of(std::atan2(p.z() - axis.z(), p.x() - axis.x()), kSectors)].push_back({p.y(), &p});
   }
   for (auto& sector : ring)
     std::sort(sector.begin(), sector.end(), [](const Point& a, const Point& b) { return a.y < b.y; });

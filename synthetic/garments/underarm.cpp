@@ -22,6 +22,11 @@ bool goes_on(const Tube& arm, double s) {
   return true;
 }
 
+// Positive inside what is cut away from one side's layer: off its own body, and nearer to the other's.
+double beyond_own_side(double to_own, double to_other) {
+  return std::min(to_own - kLayer, kHalfGap + (to_own - to_other) / 2);
+}
+
 }  // namespace
 
 Underarm::Underarm(const Tube& trunk, const Tube& arm, double side, double cuff_s)
@@ -34,30 +39,25 @@ Underarm::Underarm(const Tube& trunk, const Tube& arm, double side, double cuff_
   if (inner(s).y() - inner(cuff_s).y() >= kLeastSide) start_y_ = inner(s).y();
 }
 
-Field Underarm::parted(const Field& field) const {
-  if (!start_y_) return field;
-  return [field, trunk = trunk_, arm = arm_, side = side_, start_y = *start_y_](const Vector3d& p) {
-    const double whole = field(p);
-    if (p.x() * side < 0 || whole > 0.02) return whole;
-    const double to_trunk = trunk.field(p), to_arm = arm.field(p);
-    const double gap = std::min(
-        {std::min(to_trunk, to_arm) - kLayer, kHalfGap - std::abs(to_trunk - to_arm) / 2, kSlope * (start_y - p.y())});
-    return smooth_intersection(whole, gap, 0.004);
-  };
-}
-
-Field Underarm::own_side(const Field& layer, const Tube& own, const Tube& other) const {
+template <class Gap>
+Field Underarm::cut(const Field& layer, const Gap& gap) const {
   if (!start_y_) return layer;
-  return [layer, own, other, side = side_, start_y = *start_y_](const Vector3d& p) {
+  return [layer, gap, trunk = trunk_, arm = arm_, side = side_, start_y = *start_y_](const Vector3d& p) {
     const double whole = layer(p);
     if (p.x() * side < 0 || whole > 0.02) return whole;
-    const double to_own = own.field(p), to_other = other.field(p);
-    const double beyond = std::min({to_own - kLayer, kHalfGap + (to_own - to_other) / 2, kSlope * (start_y - p.y())});
-    return smooth_intersection(whole, beyond, 0.004);
+    return smooth_intersection(whole, std::min(gap(trunk.field(p), arm.field(p)), kSlope * (start_y - p.y())), 0.004);
   };
 }
 
-Field Underarm::trunk_side(const Field& trunk_cloth) const { return own_side(trunk_cloth, trunk_, arm_); }
-Field Underarm::arm_side(const Field& sleeve) const { return own_side(sleeve, arm_, trunk_); }
+Field Underarm::parted(const Field& field) const {
+  return cut(field, [](double to_trunk, double to_arm) {
+    return std::min(std::min(to_trunk, to_arm) - kLayer, kHalfGap - std::abs(to_trunk - to_arm) / 2);
+  });
+}
+
+Field Underarm::trunk_side(const Field& trunk_cloth) const { return cut(trunk_cloth, beyond_own_side); }
+Field Underarm::arm_side(const Field& sleeve) const {
+  return cut(sleeve, [](double to_trunk, double to_arm) { return beyond_own_side(to_arm, to_trunk); });
+}
 
 }  // namespace dressform

@@ -30,7 +30,9 @@ class Underarm {
   std::optional<double> start_y() const { return start_y_; }
 
  private:
-  Field own_side(const Field& layer, const Tube& own, const Tube& other) const;
+  // The layer cut below the armpit where `gap`, of the distances to trunk and arm, is positive.
+  template <class Gap>
+  Field cut(const Field& layer, const Gap& gap) const;
 
   Tube trunk_, arm_;
   double side_;
