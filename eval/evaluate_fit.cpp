@@ -29,20 +29,20 @@ void add_ease(StageRows& rows, const std::string& slot, const GarmentOutput* gar
   for (const auto& tape : kTapes) {
     const std::string metric = slot + "/ease_" + tape.name;
     if (!garment || !naked || !user) {
-      for (const char* end : {"_mm@2", "_fitted_mm@2", "_change_mm@2"}) rows.fail(metric + end, "mm");
+      for (const char* end : {"_mm@3", "_fitted_mm@3", "_change_mm@3"}) rows.fail(metric + end, "mm");
       continue;
     }
     const auto before = garment_girth_m(garment->mesh, (*naked).*tape.level);
     const auto after = garment_girth_m(garment->fitted, (*user).*tape.level);
     if (!before || !after) {  // the garment does not go round the body there
-      for (const char* end : {"_mm@2", "_fitted_mm@2", "_change_mm@2"}) rows.absent(metric + end, "mm");
+      for (const char* end : {"_mm@3", "_fitted_mm@3", "_change_mm@3"}) rows.absent(metric + end, "mm");
       continue;
     }
     const double ease = (*before - ((*naked).*tape.level).girth_m) * 1000;
     const double fitted = (*after - ((*user).*tape.level).girth_m) * 1000;
-    rows.add(metric + "_mm@2", "mm", ease);
-    rows.add(metric + "_fitted_mm@2", "mm", fitted);
-    rows.add(metric + "_change_mm@2", "mm", fitted - ease);
+    rows.add(metric + "_mm@3", "mm", ease);
+    rows.add(metric + "_fitted_mm@3", "mm", fitted);
+    rows.add(metric + "_change_mm@3", "mm", fitted - ease);
   }
 }
 

@@ -143,6 +143,24 @@ std::vector<Vector2d> points_of_torso(const std::vector<Vector2d>& points, const
   return kept;
 }
 
+bool encloses(const std::vector<Vector2d>& polygon, const Vector2d& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vector2d &a = polygon[i], &b = polygon[j];
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+// A sleeve of its own: it goes round a limb and not round the torso, however close to the torso it hangs.
+bool is_sleeve(const SectionLine& line, const TapeLevels::Level& level) {
+  if (!line.closed || encloses(line.points, level.center)) return false;
+  return std::any_of(level.limbs.begin(), level.limbs.end(),
+                     [&](const auto& limb) { return encloses(line.points, centroid(limb)); });
+}
+
 double angle_round(const std::vector<Vector2d>& points, const Vector2d& center) {
   std::vector<double> angles;
   for (const auto& point : points) angles.push_back(std::atan2(point.y() - center.y(), point.x() - center.x()));
@@ -179,6 +197,7 @@ std::optional<TapeLevels> tape_levels(const Mesh& body) {
 std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Level& level) {
   std::vector<Vector2d> points;
   for (const auto& line : horizontal_section(garment, level.y)) {
+    if (is_sleeve(line, level)) continue;
     const auto of_torso = points_of_torso(line.points, level);
     points.insert(points.end(), of_torso.begin(), of_torso.end());
   }

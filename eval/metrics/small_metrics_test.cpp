@@ -311,6 +311,17 @@ TEST(Girths, GarmentRoundTheTorso) {
   EXPECT_FALSE(garment_girth_m(tube(0.05, 0.05, {0.26, 0, 0}, 1.0, 1.4, 32, 10, false), levels->chest));
 }
 
+TEST(Girths, WideSleeveBesideTheTorsoIsLeftOut) {
+  const auto levels = tape_levels(figure());
+  ASSERT_TRUE(levels);
+  // The sleeve's inner side is nearer to the torso (15 mm) than to the arm (25 mm), and is no torso's cloth for that.
+  const Mesh torso = tube(0.19, 0.14, {0, 0, 0}, 0.9, 1.45, 128, 30, false);
+  const Mesh sleeve = tube(0.065, 0.065, {0.26, 0, 0}, 1.0, 1.4, 64, 10, false);
+  const auto girth = garment_girth_m(joined(torso, sleeve), levels->chest);
+  ASSERT_TRUE(girth);
+  EXPECT_NEAR(*girth, *garment_girth_m(torso, levels->chest), 1e-12);
+}
+
 TEST(Girths, SleevesThatJoinTheTorsoAreLeftOut) {
   const auto levels = tape_levels(figure());
   ASSERT_TRUE(levels);

@@ -37,9 +37,9 @@ constexpr Measure kMeasures[] = {
     {"texture", "*/ssim_observed@2", "SSIM, held-out views", Bound::at_least, 0.75},
     {"texture", "*/ssim@2", "SSIM with unseen cloth", Bound::none, 0},
     {"texture", "*/de2000_mean@2", "CIEDE2000, held-out views", Bound::none, 0},
-    {"fit", "*/ease_chest_change_mm@2", "ease change, chest", Bound::magnitude_at_most, 15},
-    {"fit", "*/ease_waist_change_mm@2", "ease change, waist", Bound::magnitude_at_most, 15},
-    {"fit", "*/ease_hip_change_mm@2", "ease change, hip", Bound::magnitude_at_most, 15},
+    {"fit", "*/ease_chest_change_mm@3", "ease change, chest", Bound::magnitude_at_most, 15},
+    {"fit", "*/ease_waist_change_mm@3", "ease change, waist", Bound::magnitude_at_most, 15},
+    {"fit", "*/ease_hip_change_mm@3", "ease change, hip", Bound::magnitude_at_most, 15},
     {"fit", "*/edge_stretch_p95@1", "edge stretch p95", Bound::none, 0},
     {"correct", "*/intersecting_pairs@1", "triangles through the body", Bound::at_most, 0},
 };

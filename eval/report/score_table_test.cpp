@@ -12,8 +12,8 @@ TEST(ScoreTable, JudgesAgainstTheTargets) {
   scores.rows = {{"registration", "max/rotation_deg@1", "deg", 0.6, "ok", 3},
                  {"surface", "bottom/f_5mm@1", "1", 0.9, "ok", 3},
                  {"surface", "top/f_5mm@1", "1", std::numeric_limits<double>::quiet_NaN(), "failed", 0},
-                 {"fit", "top/ease_hip_change_mm@2", "mm", -14, "ok", 1},
-                 {"fit", "bottom/ease_chest_change_mm@2", "mm", std::numeric_limits<double>::quiet_NaN(), "absent", 0}};
+                 {"fit", "top/ease_hip_change_mm@3", "mm", -14, "ok", 1},
+                 {"fit", "bottom/ease_chest_change_mm@3", "mm", std::numeric_limits<double>::quiet_NaN(), "absent", 0}};
   const auto lines = score_lines(scores);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_TRUE(lines[0].missed());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -14,19 +15,82 @@ constexpr int kLevels = 90;        // over the trunk
 constexpr double kLastPart = 3.8;  // just below the armpits: above, cloth of trunk and sleeves is one
 constexpr double kFade_m = 0.015;
 
-// Where the garment crosses the height, (x, z), without what lies nearer to an arm than to the trunk.
-std::vector<cv::Point2f> crossings(const Mesh& garment, const TrunkOutline& body, double y) {
-  std::vector<cv::Point2f> points;
-  for (const auto& t : garment.triangles)
+// A connected line of the garment's section: its points, and its pieces from point to point.
+struct Line {
+  std::vector<Vector3d> points;
+  std::vector<std::pair<int, int>> pieces;
+};
+
+std::vector<Line> section_lines(const Mesh& garment, double y) {
+  std::map<std::pair<int, int>, int> point_of_edge;
+  std::vector<Vector3d> points;
+  std::vector<std::pair<int, int>> pieces;
+  std::vector<int> root;
+  const auto root_of = [&](int i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (const auto& t : garment.triangles) {
+    int ends[2] = {-1, -1};  // where the section enters the triangle, and leaves it
     for (int k = 0; k < 3; ++k) {
       const Vector3d &a = garment.vertices[t[k]], &b = garment.vertices[t[(k + 1) % 3]];
       if ((a.y() < y) == (b.y() < y)) continue;
-      const Vector3d p = a + (y - a.y()) / (b.y() - a.y()) * (b - a);
+      const auto [at, fresh] =
+          point_of_edge.emplace(std::minmax(t[k], t[(k + 1) % 3]), static_cast<int>(points.size()));
+      if (fresh) {
+        points.push_back(a + (y - a.y()) / (b.y() - a.y()) * (b - a));
+        root.push_back(at->second);
+      }
+      ends[a.y() < y] = at->second;
+    }
+    if (ends[0] < 0) continue;
+    pieces.emplace_back(ends[0], ends[1]);
+    root[root_of(ends[0])] = root_of(ends[1]);
+  }
+  std::vector<Line> lines;
+  std::vector<int> line_of(points.size(), -1), place(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    int& line = line_of[root_of(static_cast<int>(i))];
+    if (line < 0) line = static_cast<int>(lines.size()), lines.emplace_back();
+    place[i] = static_cast<int>(lines[line].points.size());
+    lines[line].points.push_back(points[i]);
+  }
+  for (const auto& [from, to] : pieces) lines[line_of[root_of(from)]].pieces.emplace_back(place[from], place[to]);
+  return lines;
+}
+
+// Whether the line closes round the point, seen from above.
+bool goes_round(const Line& line, const Vector3d& centre) {
+  double turn = 0;
+  for (const auto& [from, to] : line.pieces) {
+    const Vector3d a = line.points[from] - centre, b = line.points[to] - centre;
+    turn += std::atan2(a.x() * b.z() - a.z() * b.x(), a.x() * b.x() + a.z() * b.z());
+  }
+  return std::abs(turn) > 0.95 * 2 * M_PI;
+}
+
+Vector3d middle_of(const std::vector<Vector3d>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+// Where the garment crosses the height, (x, z), without sleeves: lines that close round an arm alone, and points nearer
+// to an arm than to the trunk where a sleeve and the trunk's cloth are one line.
+std::vector<cv::Point2f> crossings(const Mesh& garment, const TrunkOutline& body, double y) {
+  std::vector<cv::Point2f> points;
+  for (const Line& line : section_lines(garment, y)) {
+    const bool of_trunk = goes_round(line, body.trunk.centroid);
+    if (!of_trunk && std::any_of(body.limbs.begin(), body.limbs.end(),
+                                 [&](const auto& limb) { return goes_round(line, middle_of(limb)); }))
+      continue;
+    for (const Vector3d& p : line.points) {
       const double to_trunk = horizontal_distance(p, body.trunk.points);
       if (std::none_of(body.limbs.begin(), body.limbs.end(),
                        [&](const auto& limb) { return horizontal_distance(p, limb) < to_trunk; }))
         points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
     }
+  }
   return points;
 }
 

@@ -135,6 +135,32 @@ TEST(Fit, KeepsTheEaseOnAMuchWiderBody) {
   EXPECT_GT(mean_radius(scaled.garments.at("top").mesh, 1.05, 1.12) - 0.15 * 1.25, grown);
 }
 
+// A tube about an arm of the figure, by its upper end's height; its triangles are added behind the garment's.
+void add_sleeve(const FigureSpec& figure, double side, double radius_m, Mesh& garment) {
+  const double slope = std::tan(figure.arm_deg * M_PI / 180);
+  Mesh sleeve = make_tube(radius_m, 0.95, 1.2).mesh;
+  const int offset = static_cast<int>(garment.vertices.size());
+  for (auto v : sleeve.vertices) {
+    v.x() += side * (0.20 * figure.breadth + (1.40 - v.y()) * slope);
+    garment.vertices.push_back(v);
+  }
+  for (const auto& t : sleeve.triangles) garment.triangles.emplace_back(t + Vector3i::Constant(offset));
+}
+
+TEST(Fit, WideSleevesBesideTheTrunkAreNotItsCloth) {
+  // The user's arms hang closer: the sleeves' inner sides come nearer to the trunk than to the arms.
+  const FigureSpec naked{}, user{1.75, 1.15, 11, 0};
+  Try input = make_try(user);
+  TexturedMesh& top = input.clothes.garments["top"];
+  const std::size_t of_trunk = top.mesh.vertices.size();
+  for (const double side : {-1.0, 1.0}) add_sleeve(naked, side, 0.085, top.mesh);
+  top.corner_uv.resize(top.mesh.triangles.size(), top.corner_uv[0]);
+  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1);
+  Mesh trunk = result.garments.at("top").mesh;
+  trunk.vertices.resize(of_trunk);
+  EXPECT_NEAR(2 * M_PI * (mean_radius(trunk, 1.05, 1.12) - 0.15 * 1.15), 2 * M_PI * 0.025, 0.006);
+}
+
 TEST(Fit, TheNumberOfThreadsDoesNotMatter) {
   const Try input = make_try({1.65, 1.1, 18, 2.0});
   const auto both = to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1));
