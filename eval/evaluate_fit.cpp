@@ -93,6 +93,7 @@ std::vector<ScoreRow> correction(const RunOutputs& outputs, const GroundTruth& t
     const Penetration depth = possible ? penetration(garment->fitted, outputs.user_body, 0.004, seed) : Penetration{};
     add("intersecting_pairs@1", "count", possible ? intersecting_pairs(garment->fitted, outputs.user_body) : 0,
         triangles);
+    add("self_intersecting_pairs@1", "count", possible ? self_intersecting_pairs(garment->fitted) : 0, triangles);
     add("components_inside@1", "count", depth.components_inside, triangles);
     add("penetration_area_cm2@1", "cm2", depth.area_cm2, depth.samples);
     add("penetration_mean_mm@1", "mm", depth.mean_mm, depth.samples);

@@ -50,6 +50,14 @@ bool share_a_point(const Triangle& a, const Triangle& b) {
   return flat_a ? CGAL::do_intersect(longest_side(a), b) : CGAL::do_intersect(a, longest_side(b));
 }
 
+// Two triangles with one common vertex (corner i of a, j of b) meet elsewhere if the side opposite to it, of either,
+// meets the other triangle.
+bool meet_beyond_vertex(const Triangle& a, int i, const Triangle& b, int j) {
+  if (a.is_degenerate() || b.is_degenerate()) return false;
+  return CGAL::do_intersect(Segment(a[(i + 1) % 3], a[(i + 2) % 3]), b) ||
+         CGAL::do_intersect(Segment(b[(j + 1) % 3], b[(j + 2) % 3]), a);
+}
+
 }  // namespace
 
 long intersecting_pairs(const Mesh& a, const Mesh& b) {
@@ -59,6 +67,21 @@ long intersecting_pairs(const Mesh& a, const Mesh& b) {
                            [&](const Box& p, const Box& q) {
                              if (share_a_point(first.triangles[p.info()], second.triangles[q.info()])) ++pairs;
                            });
+  return pairs;
+}
+
+long self_intersecting_pairs(const Mesh& mesh) {
+  Triangles all = triangles_of(mesh);
+  long pairs = 0;
+  CGAL::box_self_intersection_d(all.boxes.begin(), all.boxes.end(), [&](const Box& p, const Box& q) {
+    const Vector3i &s = mesh.triangles[p.info()], &t = mesh.triangles[q.info()];
+    int common = 0, in_s = 0, in_t = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (s[i] == t[j]) ++common, in_s = i, in_t = j;
+    const Triangle &a = all.triangles[p.info()], &b = all.triangles[q.info()];
+    if (common == 0 ? share_a_point(a, b) : common == 1 && meet_beyond_vertex(a, in_s, b, in_t)) ++pairs;
+  });
   return pairs;
 }
 

@@ -242,6 +242,21 @@ TEST(Intersections, CountsPairs) {
   EXPECT_EQ(intersecting_pairs(flat, square(1, 0, 1)), 1) << "a triangle without area still cuts";
 }
 
+TEST(Intersections, OfAMeshWithItself) {
+  const Mesh ball = sphere(1, {0, 0, 0}, 20);
+  EXPECT_EQ(self_intersecting_pairs(ball), 0) << "neighbours touch, and do not cross";
+  const Mesh other = moved(ball, {0.3, 0.1, 0});
+  EXPECT_EQ(self_intersecting_pairs(joined(ball, other)), intersecting_pairs(ball, other));
+  // A fan round one vertex of which the last triangle is folded through the first.
+  Mesh fan;
+  fan.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.9, 0.3, 0.5}, {0.6, 0.2, -0.5}};
+  fan.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(self_intersecting_pairs(fan), 0);
+  fan.triangles.emplace_back(0, 4, 5);
+  EXPECT_EQ(self_intersecting_pairs(fan), 1);
+  EXPECT_EQ(self_intersecting_pairs(Mesh{}), 0);
+}
+
 TEST(Penetration, DepthOfAShiftedSquareInABall) {
   const Mesh ball = sphere(0.5, {0, 0, 0}, 80);
   const auto outside = penetration(moved(square(0.2, 0, 4), {-0.1, -0.1, 0.6}), ball);

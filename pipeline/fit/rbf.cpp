@@ -8,10 +8,13 @@
 #include "pipeline/fit/ease.h"
 #include "pipeline/fit/fit.h"
 #include "pipeline/fit/fit_result.h"
+#include "pipeline/fit/legs_apart.h"
 #include "pipeline/fit/standing_body.h"
 
 namespace dressform {
 namespace {
+
+constexpr double kBetweenLegs_m = 0.001;  // from the surface midway between the user's legs to either leg's cloth
 
 struct RbfParams {
   std::string kernel = "r";
@@ -64,6 +67,7 @@ Mesh fitted_mesh(const Mesh& garment, const StandingBody& naked, const BodyWarp&
   std::vector<double> trunk(moved.sleeve.size());
   for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = 1 - moved.sleeve[v];
   result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01, params.ease_rounds);
+  result.vertices = legs_kept_apart(result, leg_of_vertices(garment, naked), user, kBetweenLegs_m);
   return result;
 }
 
