@@ -10,6 +10,9 @@
 namespace dressform {
 namespace {
 
+constexpr double kStandsOff = 0.7;  // of an offset's length that is distance from the body; the rest is slant
+constexpr int kRoomSteps = 8;
+
 // The body that the garment lies on: without the arms beyond the sleeves, so that a hem beside a hand belongs to the
 // hips.
 struct ClothedBody {
@@ -68,6 +71,16 @@ std::vector<Vector3d> blended(const BodyWarp& warp, const std::vector<Vector3d>&
   return result;
 }
 
+// How far cloth may stand off `base` towards `out` (unit) before another part of the body is nearer: an offset from an
+// arm held out does not fit between the arm and the trunk when it hangs.
+double room_for(double offset, const Vector3d& base, const Vector3d& out, const MeshQuery& user_surface) {
+  for (int step = 0; step < kRoomSteps; ++step) {
+    if (user_surface.closest(base + offset * out).distance >= kStandsOff * offset) break;
+    offset *= 0.75;
+  }
+  return offset;
+}
+
 // Where the offset kept at its length would put the vertex.
 Vector3d with_offset(const Anchors& anchors, std::size_t v, const Vector3d& cloth, const Vector3d& body,
                      const MeshQuery& user_surface) {
@@ -82,7 +95,8 @@ Vector3d with_offset(const Anchors& anchors, std::size_t v, const Vector3d& clot
   // Close to the body the offset's direction is mostly rounding: the normal takes over.
   const double trust = std::clamp((std::abs(distance) - 0.002) / 0.008, 0.0, 1.0);
   out = out.norm() > 1e-9 ? Vector3d(trust * out.normalized() + (1 - trust) * normal) : normal;
-  return base + distance * out.normalized();
+  out.normalize();
+  return base + (distance > 0 ? room_for(distance, base, out, user_surface) : distance) * out;
 }
 
 void diffuse(const Mesh& garment, const std::vector<double>& confidence, int rounds, std::vector<Vector3d>& change) {

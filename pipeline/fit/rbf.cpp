@@ -8,13 +8,13 @@
 #include "pipeline/fit/ease.h"
 #include "pipeline/fit/fit.h"
 #include "pipeline/fit/fit_result.h"
-#include "pipeline/fit/legs_apart.h"
+#include "pipeline/fit/limbs_apart.h"
 #include "pipeline/fit/standing_body.h"
 
 namespace dressform {
 namespace {
 
-constexpr double kBetweenLegs_m = 0.001;  // from the surface midway between the user's legs to either leg's cloth
+constexpr double kBetweenLimbs_m = 0.001;  // of cloth from the surface midway between two parts of the user's body
 
 struct RbfParams {
   std::string kernel = "r";
@@ -66,8 +66,11 @@ Mesh fitted_mesh(const Mesh& garment, const StandingBody& naked, const BodyWarp&
   Mesh result{moved.vertices, garment.triangles};
   std::vector<double> trunk(moved.sleeve.size());
   for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = 1 - moved.sleeve[v];
+  // Before the ease is measured, so that no sleeve stands in the trunk's cloth; and after it was given back.
+  const ClothLimbs limbs = limbs_of_cloth(garment, naked);
+  result.vertices = limbs_kept_apart(result, limbs, user, kBetweenLimbs_m);
   result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01, params.ease_rounds);
-  result.vertices = legs_kept_apart(result, leg_of_vertices(garment, naked), user, kBetweenLegs_m);
+  result.vertices = limbs_kept_apart(result, limbs, user, kBetweenLimbs_m);
   return result;
 }
 
