@@ -110,22 +110,53 @@ TEST(Correct, EveryVariantPushesOutwardsAndRepeats) {
   }
 }
 
+// A tube 0.25 m long about the arm's axis, from its root on, then shifted.
+TexturedMesh sleeve_of(const Limb& arm, double radius_m, const Vector3d& shift) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), arm.direction).matrix();
+  motion.translation() = arm.root + shift;
+  TexturedMesh sleeve = make_tube(radius_m, 0, 0.25);
+  sleeve.mesh = transformed(sleeve.mesh, motion.matrix());
+  return sleeve;
+}
+
 TEST(Correct, SleeveFarOffItsArmComesBackRoundIt) {
   Case input = penetrating();
   input.fitted.garments.clear();
   const BodyLimbs limbs = find_limbs(input.user.body);
   ASSERT_TRUE(limbs.left_arm);
-  const auto onto = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), limbs.left_arm->direction);
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = onto.matrix();
-  motion.translation() = limbs.left_arm->root + 0.08 * limbs.left_arm->direction + 0.035 * limbs.front;
-  TexturedMesh sleeve = make_tube(0.055, 0, 0.25);
-  sleeve.mesh = transformed(sleeve.mesh, motion.matrix());
+  const TexturedMesh sleeve = sleeve_of(*limbs.left_arm, 0.055, 0.08 * limbs.left_arm->direction + 0.035 * limbs.front);
   input.fitted.garments["top"] = sleeve;
   const auto result = Correct::at("signed_distance_smooth").run(input.user, input.fitted, {}, 1);
   EXPECT_EQ(result.intersecting_pairs.at("top"), 0);
   const auto ends = sleeve_ends(result.garments.at("top").mesh, limbs);
   EXPECT_EQ(ends, sleeve_ends(sleeve.mesh, limbs));
+}
+
+double longest_side(const Mesh& mesh) {
+  double longest = 0;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm());
+  return longest;
+}
+
+TEST(Correct, CrumpledClothIsNotDrawnOut) {
+  // A sleeve crumpled into its arm: triangles stand across the arm, whichever way they are lifted.
+  Case input = penetrating();
+  input.fitted.garments.clear();
+  const BodyLimbs limbs = find_limbs(input.user.body);
+  ASSERT_TRUE(limbs.left_arm);
+  TexturedMesh sleeve = sleeve_of(*limbs.left_arm, 0.055, 0.08 * limbs.left_arm->direction);
+  for (std::size_t v = 0; v < sleeve.mesh.vertices.size(); ++v) {
+    const double i = static_cast<double>(v);
+    sleeve.mesh.vertices[v] += 0.020 * Vector3d(std::sin(12.9 * i), 0.3 * std::sin(78.2 * i), std::sin(37.7 * i));
+  }
+  input.fitted.garments["top"] = sleeve;
+  ASSERT_GT(intersecting_pairs(sleeve.mesh, input.user.body).size(), 500u);
+  const auto result = Correct::at("signed_distance_smooth").run(input.user, input.fitted, {}, 1);
+  EXPECT_EQ(result.intersecting_pairs.at("top"), 0);
+  EXPECT_LT(longest_side(result.garments.at("top").mesh), 3 * longest_side(sleeve.mesh));
 }
 
 TEST(Correct, UglyInput) {

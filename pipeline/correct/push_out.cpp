@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace dressform {
 namespace {
@@ -11,6 +13,7 @@ namespace {
 constexpr double kLargestLift_m = 0.012;  // of a cut triangle in one round
 // Leaving the way the cloth faces may be so much longer than leaving by the nearest side, and so much more.
 constexpr double kDetour = 4, kDetour_m = 0.02;
+constexpr int kRelaxedRings = 2;
 constexpr int kPatience = 15;  // rounds after which the gap shrinks: the room between arm and trunk may be less
 
 std::vector<std::vector<int>> neighbours_of(const Mesh& mesh) {
@@ -27,6 +30,17 @@ std::vector<std::vector<int>> neighbours_of(const Mesh& mesh) {
   return neighbours;
 }
 
+// Per vertex, whether it lies on a side that one triangle alone has.
+std::vector<char> rim_vertices(const Mesh& mesh) {
+  std::map<std::pair<int, int>, int> triangles_of;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++triangles_of[std::minmax(t[k], t[(k + 1) % 3])];
+  std::vector<char> rim(mesh.vertices.size(), 0);
+  for (const auto& [side, count] : triangles_of)
+    if (count == 1) rim[side.first] = rim[side.second] = 1;
+  return rim;
+}
+
 class Pusher {
  public:
   Pusher(const Mesh& garment, const MeshQuery& body, const IntersectionFinder& finder, const std::vector<char>& beside,
@@ -37,6 +51,7 @@ class Pusher {
         beside_(beside),
         params_(params),
         neighbours_(neighbours_of(garment)),
+        on_rim_(rim_vertices(garment)),
         stale_vertex_(garment.vertices.size(), 1),
         cuts_(garment.triangles.size()) {}
 
@@ -52,6 +67,7 @@ class Pusher {
         any = find_triangle_lifts(push);
       }
       if (!any) break;
+      if (result.rounds >= kPatience) relax(push);
       diffuse(push, result.rounds == 0 ? params_.diffusion_rounds : std::min(3, params_.diffusion_rounds));
       apply(push, stale_triangle);
     }
@@ -134,6 +150,27 @@ class Pusher {
     return any;
   }
 
+  // Cloth that is still cut after so many rounds is crumpled into a place too narrow for it, and lifting its triangles
+  // one by one only draws them out. It is smoothed first: what is pushed, and the rings about it, goes to the middle of
+  // its neighbours, on rims to the middle of those on the rim.
+  void relax(std::vector<Vector3d>& push) const {
+    std::vector<char> pushed(push.size());
+    for (std::size_t v = 0; v < push.size(); ++v) pushed[v] = push[v].squaredNorm() > 0;
+    for (int ring = 0; ring < kRelaxedRings; ++ring) {
+      const std::vector<char> before = pushed;
+      for (std::size_t v = 0; v < push.size(); ++v)
+        for (int n : neighbours_[v]) pushed[v] = pushed[v] || before[n];
+    }
+    for (std::size_t v = 0; v < push.size(); ++v) {
+      if (!pushed[v]) continue;
+      Vector3d sum = Vector3d::Zero();
+      int count = 0;
+      for (int n : neighbours_[v])
+        if (!on_rim_[v] || on_rim_[n]) sum += mesh_.vertices[n], ++count;
+      if (count > 0) push[v] += 0.5 * (sum / count - mesh_.vertices[v]);
+    }
+  }
+
   // Pushed vertices keep their push; the others take a fading part of their neighbours'.
   void diffuse(std::vector<Vector3d>& push, int rounds) const {
     std::vector<char> fixed(push.size());
@@ -167,6 +204,7 @@ class Pusher {
   const PushOutParams params_;
   double gap_m_ = params_.gap_m;
   const std::vector<std::vector<int>> neighbours_;
+  const std::vector<char> on_rim_;
   std::vector<char> stale_vertex_;      // moved since its distance was last found
   std::vector<std::vector<int>> cuts_;  // per triangle, as last found
 };
