@@ -21,6 +21,12 @@ constexpr float kUncoveredNats = 3;  // where the naked shot shows the room, the
 constexpr float kShadowPrice = 1;    // nats: shadows on skin are seldom
 constexpr float kHeadNats = 3, kHandNats = 2, kFootNats = 1.5;
 
+// Of a piece of skin that may be cloth.
+constexpr std::size_t kFewestOffsets = 40;
+constexpr double kBareShare = 0.1;       // of head, hands and feet in it
+constexpr double kLowQuarter = 0.3;      // of the limit: the lower quartile, so that a piece is not half skin
+constexpr double kRegisteredOnly = 2.5;  // of the limit, where only the naked model tells the offset
+
 // Nats in favour of cloth from the offset: a uniform density against a normal one round zero.
 float shape_nats(float offset_mm, const ClothParams& params) {
   if (std::isnan(offset_mm)) return 0;
@@ -115,6 +121,38 @@ void close_islands(const ViewEvidence& view, double island_mm2, cv::Mat& cloth) 
   }
 }
 
+// Pieces of skin that stand off the body as a whole: cloth of the skin's colour. One pixel's offset says little beside
+// its colour; the median of a piece is good to a fraction of a millimetre where the naked shot shows the same place,
+// and to what the registration leaves elsewhere.
+void raise_pieces(const ViewEvidence& view, double raised_mm, cv::Mat& cloth) {
+  const cv::Mat skin = view.body & ~cloth;
+  cv::Mat labels;
+  const int count = cv::connectedComponents(skin, labels, 4);
+  std::vector<std::vector<float>> offsets(count);
+  std::vector<int> size(count, 0), bare(count, 0);
+  for (int y = 0; y < skin.rows; ++y) {
+    for (int x = 0; x < skin.cols; ++x) {
+      const int label = labels.at<int>(y, x);
+      if (label == 0) continue;
+      ++size[label];
+      bare[label] += part_nats(view, y, x) < 0;
+      if (const float offset = view.offset_mm.at<float>(y, x); !std::isnan(offset)) offsets[label].push_back(offset);
+    }
+  }
+  const bool same_place = !view.naked_lab.empty() && !view.moved;
+  const double limit_mm = same_place ? raised_mm : kRegisteredOnly * raised_mm;
+  std::vector<char> raised(count, 0);
+  for (int label = 1; label < count; ++label) {
+    auto& own = offsets[label];
+    if (own.size() < kFewestOffsets || bare[label] > kBareShare * size[label]) continue;
+    std::sort(own.begin(), own.end());
+    raised[label] = own[own.size() / 2] > limit_mm && own[own.size() / 4] > kLowQuarter * limit_mm;
+  }
+  for (int y = 0; y < skin.rows; ++y)
+    for (int x = 0; x < skin.cols; ++x)
+      if (raised[labels.at<int>(y, x)]) cloth.at<uchar>(y, x) = 255;
+}
+
 cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHistogram& skin,
                  const ColorHistogram& cloth, const ClothParams& params) {
   const auto most = static_cast<float>(params.color_nats);
@@ -142,6 +180,7 @@ cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHist
   cv::Mat cut = binary_cut(view.lab, cost, active, initial, smoothness) & view.body;
   remove_specks(cut, view.body, params.speck_mm2, pixel_size_mm(view));
   close_islands(view, params.island_mm2, cut);
+  raise_pieces(view, params.raised_mm, cut);
   return cut;
 }
 

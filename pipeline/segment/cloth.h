@@ -14,6 +14,7 @@ struct ClothParams {
   double smoothness = 8;     // of the cut, nats
   double speck_mm2 = 500;    // smaller pieces of skin or cloth are turned over
   double island_mm2 = 3000;  // larger enclosed pieces of skin on trunk and legs are believed
+  double raised_mm = 2.5;    // pieces of skin whose median offset is more are cloth of the skin's colour
   int rounds = 2;            // of learning colours and cutting
 };
 

@@ -28,6 +28,7 @@ void fields(V& v, JointMrfParams& p) {
   v("smoothness", p.cloth.smoothness, 0, 100, "nats", "price of an edge between cloth and skin through even colour");
   v("speck_mm2", p.cloth.speck_mm2, 0, 10000, "mm^2", "smaller pieces join what surrounds them");
   v("island_mm2", p.cloth.island_mm2, 0, 50000, "mm^2", "smaller pieces of skin that cloth encloses are print");
+  v("raised_mm", p.cloth.raised_mm, 0.5, 100, "mm", "pieces of skin of a larger median offset are cloth of its colour");
   v("cloth_rounds", p.cloth.rounds, 1, 10, "", "rounds of learning the colours of skin and cloth");
   v("parting_color_nats", p.parting.color_nats, 0, 20, "nats", "most that the colour of one pixel may say about top");
   v("parting_row_price", p.parting.row_price, 0.01, 100, "nats", "price of 5 mm of change of the hem's height");
