@@ -26,10 +26,11 @@ std::array<double, 2> sleeve_ends(const Mesh& garment, const BodyLimbs& limbs) {
       const double angle = std::atan2(out.dot(v), out.dot(u)) / (2 * M_PI) + 1;
       ++seen[static_cast<int>(along / kBin_m)][static_cast<int>(angle * kSectors) % kSectors];
     }
-    for (const auto& bin : seen) {
-      if (std::count_if(bin.begin(), bin.end(), [](int n) { return n > 0; }) < kEnclosing) break;
-      ends[side] += kBin_m;
-    }
+    // Near the armpit, and as far down as a sleeve is one with the trunk's cloth, it does not enclose the arm; it does
+    // again further down.
+    for (int bin = 0; bin < kBins; ++bin)
+      if (std::count_if(seen[bin].begin(), seen[bin].end(), [](int n) { return n > 0; }) >= kEnclosing)
+        ends[side] = (bin + 1) * kBin_m;
   }
   return ends;
 }

@@ -6,8 +6,8 @@
 
 namespace dressform {
 
-// How far down each arm (left, right) the garment encloses it all round: metres along the arm from the armpit, 0 where
-// it does not.
+// The last place down each arm (left, right) where the garment encloses it all round: metres along the arm from the
+// armpit, 0 where it does nowhere.
 std::array<double, 2> sleeve_ends(const Mesh& garment, const BodyLimbs& limbs);
 
 // For each triangle of the body, whether it belongs to an arm where the garment no longer encloses it (more than

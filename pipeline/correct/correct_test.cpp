@@ -37,6 +37,15 @@ TEST(Sleeves, EndWhereTheGarmentNoLongerEnclosesTheArm) {
   const auto ends = sleeve_ends(transformed(upright, motion.matrix()), limbs);
   EXPECT_NEAR(ends[0], 0.30, 0.05);
   EXPECT_EQ(ends[1], 0);
+  // The same sleeve, above its last 12 cm one with the trunk's cloth: open towards the trunk.
+  Mesh joined = upright;
+  joined.triangles.clear();
+  const Vector3d towards_trunk = onto.inverse() * -limbs.outwards(0);
+  for (const auto& t : upright.triangles) {
+    const Vector3d& v = upright.vertices[t[0]];
+    if (v.y() > 0.18 || (v - v.y() * Vector3d::UnitY()).dot(towards_trunk) < 0) joined.triangles.push_back(t);
+  }
+  EXPECT_NEAR(sleeve_ends(transformed(compacted(joined), motion.matrix()), limbs)[0], 0.30, 0.05);
 }
 
 struct Case {

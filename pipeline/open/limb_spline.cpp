@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "pipeline/common/sector.h"
@@ -160,32 +161,38 @@ PlacedRim place_rim(const Opening& opening, const std::vector<RimSample>& edges,
   return rim;
 }
 
-// How much nearer each vertex is to one arm than to the rest of the body, halved: beyond a cuff, only what is nearer to
-// the arm comes off, also where the sleeve touches the trunk.
-std::vector<double> nearer_to_arm(const Opening& opening, const Mesh& mesh, const Scene& scene) {
-  std::vector<double> result(mesh.vertices.size(), std::numeric_limits<double>::infinity());
-  if (opening.name != "left_cuff" && opening.name != "right_cuff") return result;
-  const BodyPart part = opening.name == "left_cuff" ? BodyPart::left_arm : BodyPart::right_arm;
-  Mesh arm{scene.naked.mesh().vertices, {}}, rest = arm;
+// How much nearer each vertex is to the chosen parts of the body than to the rest, halved.
+std::vector<double> nearer_to(const std::function<bool(BodyPart)>& chosen, const Mesh& mesh, const Scene& scene) {
+  Mesh own{scene.naked.mesh().vertices, {}}, rest = own;
   for (std::size_t i = 0; i < scene.naked.mesh().triangles.size(); ++i)
-    (scene.limbs.triangle_parts[i] == part ? arm : rest).triangles.push_back(scene.naked.mesh().triangles[i]);
-  const MeshQuery to_arm(compacted(arm)), to_rest(compacted(rest));
+    (chosen(scene.limbs.triangle_parts[i]) ? own : rest).triangles.push_back(scene.naked.mesh().triangles[i]);
+  const MeshQuery to_own(compacted(own)), to_rest(compacted(rest));
+  std::vector<double> result(mesh.vertices.size());
   for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = (to_rest.closest(mesh.vertices[i]).distance - to_arm.closest(mesh.vertices[i]).distance) / 2;
+    result[i] = (to_rest.closest(mesh.vertices[i]).distance - to_own.closest(mesh.vertices[i]).distance) / 2;
   return result;
+}
+
+// Beyond a cuff, only what is nearer to the arm comes off, also where the sleeve touches the trunk.
+std::vector<double> limit_of(const Opening& opening, const Mesh& mesh, const Scene& scene) {
+  if (opening.name == "left_cuff" || opening.name == "right_cuff") {
+    const BodyPart arm = opening.name == "left_cuff" ? BodyPart::left_arm : BodyPart::right_arm;
+    return nearer_to([arm](BodyPart part) { return part == arm; }, mesh, scene);
+  }
+  return std::vector<double>(mesh.vertices.size(), std::numeric_limits<double>::infinity());
 }
 
 // The pole, a vertex in the middle of what lies beyond the rim: the farthest along among those over the right part of
 // the body; of an arm, not where it touches the trunk.
 Cap make_cap(const Opening& opening, const RimCurve& curve, const Mesh& mesh, const std::vector<BodyPart>& parts,
-             const std::vector<double>& nearer, const BodyLimbs& limbs) {
+             const std::vector<double>& limit, const BodyLimbs& limbs) {
   Cap cap;
   double farthest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vector3d& v = mesh.vertices[i];
     const double along = opening.along(v);
-    cap.beyond.push_back(std::min(along - curve.at(opening.angle(v)), nearer[i]));
-    const double far = std::isfinite(nearer[i]) ? cap.beyond.back() : along;
+    cap.beyond.push_back(std::min(along - curve.at(opening.angle(v)), limit[i]));
+    const double far = std::isfinite(limit[i]) ? cap.beyond.back() : along;
     if (!belongs(opening, parts[i], v, limbs) || far <= farthest) continue;
     farthest = far;
     cap.pole = static_cast<int>(i);
@@ -198,8 +205,8 @@ struct Work {
   std::string kind;
   std::vector<Opening> openings;
   std::map<std::string, std::vector<RimSample>> edges;
-  std::vector<BodyPart> parts;                        // below the vertices
-  std::map<std::string, std::vector<double>> nearer;  // nearer_to_arm of every opening
+  std::vector<BodyPart> parts;                       // below the vertices
+  std::map<std::string, std::vector<double>> limit;  // limit_of every opening
 };
 
 // The loops of the open mesh, each named after the opening whose cut is nearest.
@@ -240,7 +247,7 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
     const PlacedRim rim = place_rim(opening, samples == work.edges.end() ? std::vector<RimSample>{} : samples->second,
                                     closed, scene, params);
     if (rim.curve.knots.empty()) return {};
-    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, work.nearer.at(opening.name), scene.limbs));
+    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, work.limit.at(opening.name), scene.limbs));
     observed.push_back(rim.observed && !(opening.name == "hem" && work.kind == "shirt" && scene.tucked));
   }
   const CutResult cut = cut_caps(closed.mesh, caps);
@@ -252,6 +259,14 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
   if (t.loops != loops || t.components != 1 || t.non_manifold_edges || t.euler() != 2 - loops) return {};
   garment.rims = named_rims(garment.mesh, cut, work.openings, observed);
   return garment;
+}
+
+// Cut with the softest rims that do not cross.
+std::optional<OpenGarment> cut_softest(const ClosedGarment& closed, const Work& work, const Scene& scene,
+                                       LimbSplineParams params) {
+  for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20)
+    if (auto garment = cut_open(closed, work, scene, params)) return garment;
+  return {};
 }
 
 // The kind that the surface was made as: it decides how many openings can be cut.
@@ -268,7 +283,7 @@ std::optional<Label> worn_over(Label label, const Scene& scene) {
 }
 
 std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGarment& closed, const Scene& scene,
-                                        LimbSplineParams params) {
+                                        const LimbSplineParams& params) {
   if (closed.mesh.triangles.empty()) return {};
   Work work;
   work.kind = kind_of(name, closed.mesh, scene);
@@ -284,12 +299,13 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
     auto& edges = work.edges[opening];
     edges = reconciled(edges, samples, params.depth.contradiction_m);
   }
-  for (const Opening& opening : work.openings) work.nearer[opening.name] = nearer_to_arm(opening, closed.mesh, scene);
-  for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20) {  // stiffer, should the soft rims cross
-    auto garment = cut_open(closed, work, scene, params);
-    if (garment) return garment;
-  }
-  return {};
+  for (const Opening& opening : work.openings) work.limit[opening.name] = limit_of(opening, closed.mesh, scene);
+  if (auto garment = cut_softest(closed, work, scene, params)) return garment;
+  // A sleeve that touches the trunk about the hem is all below it, and would come off with what the hem closes.
+  const auto hem = work.limit.find("hem");
+  if (label != Label::top || hem == work.limit.end()) return {};
+  hem->second = nearer_to([](BodyPart part) { return !is_arm(part); }, closed.mesh, scene);
+  return cut_softest(closed, work, scene, params);
 }
 
 // Rims as periodic splines in the coordinates of the limbs, fitted robustly to where the masks end on the closed
