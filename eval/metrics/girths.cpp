@@ -154,11 +154,19 @@ bool encloses(const std::vector<Vector2d>& polygon, const Vector2d& point) {
   return inside;
 }
 
+bool encloses_a_limb(const std::vector<Vector2d>& polygon, const TapeLevels::Level& level) {
+  return std::any_of(level.limbs.begin(), level.limbs.end(),
+                     [&](const auto& limb) { return encloses(polygon, centroid(limb)); });
+}
+
+// The torso's cloth and nothing else.
+bool is_round_torso_alone(const SectionLine& line, const TapeLevels::Level& level) {
+  return line.closed && encloses(line.points, level.center) && !encloses_a_limb(line.points, level);
+}
+
 // A sleeve of its own: it goes round a limb and not round the torso, however close to the torso it hangs.
 bool is_sleeve(const SectionLine& line, const TapeLevels::Level& level) {
-  if (!line.closed || encloses(line.points, level.center)) return false;
-  return std::any_of(level.limbs.begin(), level.limbs.end(),
-                     [&](const auto& limb) { return encloses(line.points, centroid(limb)); });
+  return line.closed && !encloses(line.points, level.center) && encloses_a_limb(line.points, level);
 }
 
 double angle_round(const std::vector<Vector2d>& points, const Vector2d& center) {
@@ -195,14 +203,16 @@ std::optional<TapeLevels> tape_levels(const Mesh& body) {
 }
 
 std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Level& level) {
-  std::vector<Vector2d> points;
+  std::vector<Vector2d> alone, near;
   for (const auto& line : horizontal_section(garment, level.y)) {
+    if (is_round_torso_alone(line, level)) alone.insert(alone.end(), line.points.begin(), line.points.end());
     if (is_sleeve(line, level)) continue;
     const auto of_torso = points_of_torso(line.points, level);
-    points.insert(points.end(), of_torso.begin(), of_torso.end());
+    near.insert(near.end(), of_torso.begin(), of_torso.end());
   }
-  if (points.empty() || angle_round(points, level.center) < 300) return {};
-  return hull_girth_m(points);
+  if (!alone.empty()) return hull_girth_m(alone);
+  if (near.empty() || angle_round(near, level.center) < 300) return {};
+  return hull_girth_m(near);
 }
 
 }  // namespace dressform::metrics

@@ -25,10 +25,10 @@ struct TapeLevels {
 // for the search only. Absent where the body is nothing of the kind.
 std::optional<TapeLevels> tape_levels(const Mesh& body);
 
-// Tape girth of a garment round the torso at a level: hull of the section's points without closed lines that go round a
-// limb and not round the torso's centre (sleeves, however wide), and without points that lie nearer to a limb than to
-// the torso (sleeves where they join the torso). Absent where what is left does not go round the torso's centre by at
-// least 300 degrees.
+// Tape girth of a garment round the torso at a level: hull of the section's closed line round the torso's centre, if
+// that goes round no limb. Where sleeve and torso's cloth are one line, or the line is open: hull of all points without
+// closed lines round a limb alone, and without points nearer to a limb than to the torso; absent where these do not go
+// round the torso's centre by at least 300 degrees.
 std::optional<double> garment_girth_m(const Mesh& garment, const TapeLevels::Level& level);
 
 }  // namespace dressform::metrics

@@ -335,6 +335,13 @@ TEST(Girths, WideSleeveBesideTheTorsoIsLeftOut) {
   const auto girth = garment_girth_m(joined(torso, sleeve), levels->chest);
   ASSERT_TRUE(girth);
   EXPECT_NEAR(*girth, *garment_girth_m(torso, levels->chest), 1e-12);
+  // Its slanted cuff at that height: an open line.
+  Mesh cuff = sleeve;
+  cuff.triangles.clear();
+  for (const auto& t : sleeve.triangles)
+    if (sleeve.vertices[t[0]].x() < 0.27 || sleeve.vertices[t[0]].y() > levels->chest.y + 0.05)
+      cuff.triangles.push_back(t);
+  EXPECT_NEAR(*garment_girth_m(joined(torso, cuff), levels->chest), *girth, 1e-12);
 }
 
 TEST(Girths, SleevesThatJoinTheTorsoAreLeftOut) {

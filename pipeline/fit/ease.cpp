@@ -75,23 +75,28 @@ Vector3d middle_of(const std::vector<Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-// Where the garment crosses the height, (x, z), without sleeves: lines that close round an arm alone, and points nearer
-// to an arm than to the trunk where a sleeve and the trunk's cloth are one line.
+bool of_limb(const Vector3d& point, const TrunkOutline& body) {
+  const double to_trunk = horizontal_distance(point, body.trunk.points);
+  return std::any_of(body.limbs.begin(), body.limbs.end(),
+                     [&](const auto& limb) { return horizontal_distance(point, limb) < to_trunk; });
+}
+
+cv::Point2f seen_from_above(const Vector3d& p) { return {static_cast<float>(p.x()), static_cast<float>(p.z())}; }
+
+// Where the trunk's cloth crosses the height, (x, z): lines that close round the trunk alone. Where a sleeve and the
+// trunk's cloth are one line, or the line is open: all but lines round an arm alone and points nearer to an arm.
 std::vector<cv::Point2f> crossings(const Mesh& garment, const TrunkOutline& body, double y) {
-  std::vector<cv::Point2f> points;
+  std::vector<cv::Point2f> alone, near;
   for (const Line& line : section_lines(garment, y)) {
-    const bool of_trunk = goes_round(line, body.trunk.centroid);
-    if (!of_trunk && std::any_of(body.limbs.begin(), body.limbs.end(),
-                                 [&](const auto& limb) { return goes_round(line, middle_of(limb)); }))
-      continue;
+    const bool round_trunk = goes_round(line, body.trunk.centroid);
+    const bool round_limb = std::any_of(body.limbs.begin(), body.limbs.end(),
+                                        [&](const auto& limb) { return goes_round(line, middle_of(limb)); });
     for (const Vector3d& p : line.points) {
-      const double to_trunk = horizontal_distance(p, body.trunk.points);
-      if (std::none_of(body.limbs.begin(), body.limbs.end(),
-                       [&](const auto& limb) { return horizontal_distance(p, limb) < to_trunk; }))
-        points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
+      if (round_trunk && !round_limb) alone.push_back(seen_from_above(p));
+      if ((round_trunk || !round_limb) && !of_limb(p, body)) near.push_back(seen_from_above(p));
     }
   }
-  return points;
+  return alone.empty() ? near : alone;
 }
 
 // No gap wider than 60 degrees: under an arm cloth of the trunk may be missing.
