@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "pipeline/common/sector.h"
@@ -161,11 +160,11 @@ PlacedRim place_rim(const Opening& opening, const std::vector<RimSample>& edges,
   return rim;
 }
 
-// How much nearer each vertex is to the chosen parts of the body than to the rest, halved.
-std::vector<double> nearer_to(const std::function<bool(BodyPart)>& chosen, const Mesh& mesh, const Scene& scene) {
+// How much nearer each vertex is to the chosen triangles of the body than to the rest, halved.
+std::vector<double> nearer_to(const std::vector<char>& chosen, const Mesh& mesh, const Scene& scene) {
   Mesh own{scene.naked.mesh().vertices, {}}, rest = own;
-  for (std::size_t i = 0; i < scene.naked.mesh().triangles.size(); ++i)
-    (chosen(scene.limbs.triangle_parts[i]) ? own : rest).triangles.push_back(scene.naked.mesh().triangles[i]);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    (chosen[i] ? own : rest).triangles.push_back(scene.naked.mesh().triangles[i]);
   const MeshQuery to_own(compacted(own)), to_rest(compacted(rest));
   std::vector<double> result(mesh.vertices.size());
   for (std::size_t i = 0; i < result.size(); ++i)
@@ -173,13 +172,33 @@ std::vector<double> nearer_to(const std::function<bool(BodyPart)>& chosen, const
   return result;
 }
 
+bool is_cuff(const Opening& opening) { return opening.name == "left_cuff" || opening.name == "right_cuff"; }
+BodyPart arm_of(const Opening& cuff) { return cuff.name == "left_cuff" ? BodyPart::left_arm : BodyPart::right_arm; }
+
 // Beyond a cuff, only what is nearer to the arm comes off, also where the sleeve touches the trunk.
 std::vector<double> limit_of(const Opening& opening, const Mesh& mesh, const Scene& scene) {
-  if (opening.name == "left_cuff" || opening.name == "right_cuff") {
-    const BodyPart arm = opening.name == "left_cuff" ? BodyPart::left_arm : BodyPart::right_arm;
-    return nearer_to([arm](BodyPart part) { return part == arm; }, mesh, scene);
+  if (!is_cuff(opening)) return std::vector<double>(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  std::vector<char> arm(scene.limbs.triangle_parts.size());
+  for (std::size_t i = 0; i < arm.size(); ++i) arm[i] = scene.limbs.triangle_parts[i] == arm_of(opening);
+  return nearer_to(arm, mesh, scene);
+}
+
+// Beyond a hem, nothing that is nearest to what the sleeves cover of the arms: where a sleeve touches the trunk it
+// would come off with what the hem closes, because it hangs as low.
+std::vector<double> limit_of_hem(const std::vector<Opening>& openings, const std::vector<RimCurve>& curves,
+                                 const Mesh& mesh, const Scene& scene) {
+  std::vector<char> bare(scene.limbs.triangle_parts.size(), 1);
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (!is_cuff(openings[k])) continue;
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+      if (scene.limbs.triangle_parts[i] != arm_of(openings[k])) continue;
+      const Vector3d& corner = scene.naked.mesh().vertices[scene.naked.mesh().triangles[i][0]];
+      if (openings[k].along(corner) < curves[k].at(openings[k].angle(corner))) bare[i] = 0;
+    }
   }
-  return std::vector<double>(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  if (std::find(bare.begin(), bare.end(), 0) == bare.end())
+    return std::vector<double>(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  return nearer_to(bare, mesh, scene);
 }
 
 // The pole, a vertex in the middle of what lies beyond the rim: the farthest along among those over the right part of
@@ -242,12 +261,17 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
                                     const LimbSplineParams& params) {
   std::vector<Cap> caps;
   std::vector<bool> observed;
+  std::vector<RimCurve> curves;
   for (const Opening& opening : work.openings) {
     const auto samples = work.edges.find(opening.name);
     const PlacedRim rim = place_rim(opening, samples == work.edges.end() ? std::vector<RimSample>{} : samples->second,
                                     closed, scene, params);
     if (rim.curve.knots.empty()) return {};
-    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, work.limit.at(opening.name), scene.limbs));
+    const bool below_sleeves = opening.name == "hem" && (work.kind == "shirt" || work.kind == "dress");
+    const std::vector<double> limit =
+        below_sleeves ? limit_of_hem(work.openings, curves, closed.mesh, scene) : work.limit.at(opening.name);
+    caps.push_back(make_cap(opening, rim.curve, closed.mesh, work.parts, limit, scene.limbs));
+    curves.push_back(rim.curve);
     observed.push_back(rim.observed && !(opening.name == "hem" && work.kind == "shirt" && scene.tucked));
   }
   const CutResult cut = cut_caps(closed.mesh, caps);
@@ -259,14 +283,6 @@ std::optional<OpenGarment> cut_open(const ClosedGarment& closed, const Work& wor
   if (t.loops != loops || t.components != 1 || t.non_manifold_edges || t.euler() != 2 - loops) return {};
   garment.rims = named_rims(garment.mesh, cut, work.openings, observed);
   return garment;
-}
-
-// Cut with the softest rims that do not cross.
-std::optional<OpenGarment> cut_softest(const ClosedGarment& closed, const Work& work, const Scene& scene,
-                                       LimbSplineParams params) {
-  for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20)
-    if (auto garment = cut_open(closed, work, scene, params)) return garment;
-  return {};
 }
 
 // The kind that the surface was made as: it decides how many openings can be cut.
@@ -283,7 +299,7 @@ std::optional<Label> worn_over(Label label, const Scene& scene) {
 }
 
 std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGarment& closed, const Scene& scene,
-                                        const LimbSplineParams& params) {
+                                        LimbSplineParams params) {
   if (closed.mesh.triangles.empty()) return {};
   Work work;
   work.kind = kind_of(name, closed.mesh, scene);
@@ -300,12 +316,11 @@ std::optional<OpenGarment> open_garment(const std::string& name, const ClosedGar
     edges = reconciled(edges, samples, params.depth.contradiction_m);
   }
   for (const Opening& opening : work.openings) work.limit[opening.name] = limit_of(opening, closed.mesh, scene);
-  if (auto garment = cut_softest(closed, work, scene, params)) return garment;
-  // A sleeve that touches the trunk about the hem is all below it, and would come off with what the hem closes.
-  const auto hem = work.limit.find("hem");
-  if (label != Label::top || hem == work.limit.end()) return {};
-  hem->second = nearer_to([](BodyPart part) { return !is_arm(part); }, closed.mesh, scene);
-  return cut_softest(closed, work, scene, params);
+  for (int attempt = 0; attempt < 4; ++attempt, params.fit.smoothness *= 20) {  // stiffer, should the soft rims cross
+    auto garment = cut_open(closed, work, scene, params);
+    if (garment) return garment;
+  }
+  return {};
 }
 
 // Rims as periodic splines in the coordinates of the limbs, fitted robustly to where the masks end on the closed

@@ -263,6 +263,31 @@ TEST_P(EveryOpening, TuckedShirtShowsTheWaist) {
   EXPECT_FALSE(rim_named(open.garments.at("top"), "hem")->observed);
 }
 
+// A long sleeve whose surface is one with the trunk's from the armpit to below the hem.
+TEST_P(EveryOpening, SleeveThatTouchesTheTrunkBelowTheHemStaysOn) {
+  figure::Clothes clothes;
+  clothes.sleeve_m = 0.50;
+  clothes.hem_y = 1.02;
+  const figure::Capture capture = figure::capture(clothes);
+  ClosedGarments closed = close(capture);
+  figure::Clothes longer = clothes;
+  longer.sleeve_m += 0.04;
+  longer.hem_y -= 0.04;
+  longer.neck_y += 0.04;
+  closed.garments["top"].mesh = figure::surface_of({-0.5, 0.7, -0.25}, {0.5, 1.6, 0.25}, 0.012, [&](const Vector3d& p) {
+    const Vector3d to_bridge = (p - Vector3d(0.19, 1.19, 0)).cwiseAbs() - Vector3d(0.09, 0.205, 0.03);
+    return std::min(figure::shirt(p, longer), to_bridge.maxCoeff());
+  });
+  const OpenGarments open = run(GetParam(), capture, closed);
+  ASSERT_TRUE(open.garments.count("top"));
+  expect_open(open.garments.at("top").mesh, 4);
+  for (const double side : {1.0, -1.0}) {
+    const Rim* cuff = rim_named(open.garments.at("top"), side > 0 ? "left_cuff" : "right_cuff");
+    ASSERT_TRUE(cuff);
+    for (const Vector3d& p : cuff->points) EXPECT_NEAR(figure::along_arm(p, side), clothes.sleeve_m, 0.03);
+  }
+}
+
 void expect_ankles(const OpenGarments& open, double height, double tolerance) {
   ASSERT_TRUE(open.garments.count("bottom"));
   for (const char* name : {"left_ankle", "right_ankle"}) {

@@ -91,6 +91,28 @@ TEST(Segment, PrintsWithTheOtherGarmentsColours) {
   for (const auto& variant : Segment::names()) expect_labels(scene, run(variant, scene), 0.85, variant);
 }
 
+// Large figures of the skin's own colour, on cloth that lies 5 mm off the skin: colour says skin, and no one pixel's
+// depth says otherwise.
+TEST(Segment, PrintOfTheSkinsColour) {
+  SceneOptions options;
+  options.shirt_ease_m = 0.005;
+  options.top_color = [](const Vector3d& p) {
+    const bool figure = std::hypot(p.x() - 0.04, p.y() - 1.28) < 0.06 || std::hypot(p.x() + 0.06, p.y() - 1.08) < 0.04;
+    return figure ? cv::Vec3b(175, 195, 215) : cv::Vec3b(150, 60, 30);
+  };
+  const auto scene = analytic::make_scene(options);
+  const auto extracted = Extract::at("cluster").run(scene.session, scene.calibration, scene.naked, {}, 1);
+  const auto part_found = [&](const FieldValues& values) {
+    const auto found =
+        Segment::at("joint_mrf")
+            .run(scene.session, scene.calibration, scene.naked, extracted, scene.registration, values, 1);
+    const cv::Mat truth = scene.labels.at("k1") == 2;
+    return static_cast<double>(cv::countNonZero(truth & (found.labels.at("k1") == 2))) / cv::countNonZero(truth);
+  };
+  EXPECT_GT(part_found({}), 0.96);
+  EXPECT_LT(part_found({{"raised_mm", 100.0}}), 0.92) << "the figures are too small to matter";
+}
+
 TEST(Segment, SkirtIsASkirt) {
   SceneOptions options;
   options.skirt = true;
