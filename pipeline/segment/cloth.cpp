@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/common/color_histogram.h"
@@ -26,6 +27,13 @@ constexpr std::size_t kFewestOffsets = 40;
 constexpr double kBareShare = 0.1;       // of head, hands and feet in it
 constexpr double kLowQuarter = 0.3;      // of the limit: the lower quartile, so that a piece is not half skin
 constexpr double kRegisteredOnly = 2.5;  // of the limit, where only the naked model tells the offset
+
+// Of a part of a piece.
+constexpr double kPooled_mm = 25;
+constexpr double kPooledShare = 0.25;
+constexpr double kPooledMargin_mm = 1;  // more than of a whole piece
+constexpr double kUnchangedMargin_mm = 3;
+constexpr double kPooledChange = 2;  // noise units: skin that nothing shades does not change so much
 
 // Nats in favour of cloth from the offset: a uniform density against a normal one round zero.
 float shape_nats(float offset_mm, const ClothParams& params) {
@@ -153,6 +161,37 @@ void raise_pieces(const ViewEvidence& view, double raised_mm, cv::Mat& cloth) {
       if (raised[labels.at<int>(y, x)]) cloth.at<uchar>(y, x) = 255;
 }
 
+// Mean of the values where `use` is set, over a square window; NaN where less than kPooledShare of it counts.
+cv::Mat pooled(const cv::Mat& values, const cv::Mat& use, int window_px) {
+  cv::Mat counted = cv::Mat::zeros(values.size(), CV_32F), ones = counted.clone(), sum, share;
+  values.copyTo(counted, use);
+  ones.setTo(1, use);
+  const cv::Size window(window_px, window_px);
+  cv::boxFilter(counted, sum, CV_32F, window, {-1, -1}, true, cv::BORDER_CONSTANT);
+  cv::boxFilter(ones, share, CV_32F, window, {-1, -1}, true, cv::BORDER_CONSTANT);
+  cv::Mat mean = sum / share;
+  mean.setTo(std::numeric_limits<float>::quiet_NaN(), share < kPooledShare);
+  return mean;
+}
+
+// The same where such cloth is one piece with bare skin, as beside a cuff: by what a hand's breadth says together of
+// offset and of change against the naked shot.
+void raise_parts(const ViewEvidence& view, double raised_mm, double speck_mm2, cv::Mat& cloth) {
+  if (view.naked_lab.empty() || view.moved) return;
+  const double px_mm = pixel_size_mm(view);
+  const int window = 2 * static_cast<int>(kPooled_mm / px_mm / 2) + 1;
+  const cv::Mat skin = view.body & ~cloth;
+  const cv::Mat offset = pooled(view.offset_mm, skin & (view.offset_mm == view.offset_mm), window);
+  const cv::Mat change = pooled(view.change, skin & (view.change == view.change), window);
+  cv::Mat raised = skin & (((offset > raised_mm + kPooledMargin_mm) & (change > kPooledChange)) |
+                           (offset > raised_mm + kUnchangedMargin_mm));
+  for (int y = 0; y < raised.rows; ++y)
+    for (int x = 0; x < raised.cols; ++x)
+      if (raised.at<uchar>(y, x) && part_nats(view, y, x) < 0) raised.at<uchar>(y, x) = 0;
+  remove_specks(raised, view.body, speck_mm2, px_mm);
+  cloth |= raised & skin;
+}
+
 cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHistogram& skin,
                  const ColorHistogram& cloth, const ClothParams& params) {
   const auto most = static_cast<float>(params.color_nats);
@@ -181,6 +220,7 @@ cv::Mat cut_view(const ViewEvidence& view, const cv::Mat& fixed, const ColorHist
   remove_specks(cut, view.body, params.speck_mm2, pixel_size_mm(view));
   close_islands(view, params.island_mm2, cut);
   raise_pieces(view, params.raised_mm, cut);
+  raise_parts(view, params.raised_mm, params.speck_mm2, cut);
   return cut;
 }
 
