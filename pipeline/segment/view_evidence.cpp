@@ -247,6 +247,17 @@ void compare_colors(const Shot& dressed, const Shot& naked, const ViewMasks& mas
 
 }  // namespace
 
+BarePlace bare_place(const ViewEvidence& view, int v, int u) {
+  const uchar code = view.part.at<uchar>(v, u);
+  if (code == 255) return BarePlace::none;
+  const auto part = static_cast<BodyPart>(code);
+  const float end = view.limb_end.at<float>(v, u);
+  if (part == BodyPart::head) return BarePlace::head;
+  if (is_arm(part) && end > 0.85f) return BarePlace::hand;
+  if (is_leg(part) && end > 0.93f) return BarePlace::foot;
+  return BarePlace::none;
+}
+
 ViewEvidence view_evidence(const Shot& dressed, const Shot* naked, const SensorCalibration& sensor,
                            const ViewMasks& masks, const Isometry3d& model_from_sensor, const NakedBody& body,
                            const EvidenceParams& params) {

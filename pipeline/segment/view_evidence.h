@@ -35,6 +35,10 @@ struct ViewEvidence {
   bool moved = false;  // the mannequin moved between the shots: the naked shot says nothing pixel by pixel
 };
 
+// Places that clothes leave bare.
+enum class BarePlace : unsigned char { none, head, hand, foot };
+BarePlace bare_place(const ViewEvidence& view, int v, int u);
+
 struct EvidenceParams {
   double moved_mm = 8;   // median depth change of head and hands beyond which the mannequin moved
   double stand_mm = 30;  // unchanged and further from the naked body than this: the stand
