@@ -107,15 +107,16 @@ cv::Mat left_sleeve_of(const AnalyticScene& scene) {
   return mask;
 }
 
-// Large figures of the skin's own colour and a sleeve of it, on cloth 7 mm off the skin: colour says skin, and no one
-// pixel's depth says otherwise.
+// Large figures of the skin's own colour and a sleeve of nearly that, on cloth 7 mm off the skin: colour says skin, and
+// no one pixel's depth says otherwise.
 TEST(Segment, PrintOfTheSkinsColour) {
   SceneOptions options;
   options.shirt_ease_m = 0.007;
   options.top_color = [](const Vector3d& p) {
     const bool figure = std::hypot(p.x() - 0.04, p.y() - 1.28) < 0.06 || std::hypot(p.x() + 0.06, p.y() - 1.08) < 0.04;
     const bool sleeve = p.x() > 0.19 && p.y() < 1.33;
-    return figure || sleeve ? cv::Vec3b(175, 195, 215) : cv::Vec3b(150, 60, 30);
+    if (sleeve) return cv::Vec3b(160, 190, 222);
+    return figure ? cv::Vec3b(175, 195, 215) : cv::Vec3b(150, 60, 30);
   };
   const auto scene = analytic::make_scene(options);
   const auto extracted = Extract::at("cluster").run(scene.session, scene.calibration, scene.naked, {}, 1);
@@ -130,9 +131,9 @@ TEST(Segment, PrintOfTheSkinsColour) {
   };
   const cv::Mat with = found({}), without = found({{"raised_mm", 100.0}});
   EXPECT_GT(part_of(with, truth), 0.96);
-  EXPECT_GT(part_of(with, sleeve), 0.45);
+  EXPECT_GT(part_of(with, sleeve), 0.3);  // of 13 pixels of width, and the window is 4
   EXPECT_LT(part_of(without, truth), 0.92) << "the figures are too small to matter";
-  EXPECT_LT(part_of(without, sleeve), 0.2) << "colour alone finds the sleeve";
+  EXPECT_LT(part_of(without, sleeve), 0.15) << "colour alone finds the sleeve";
 }
 
 TEST(Segment, SkirtIsASkirt) {

@@ -21,8 +21,8 @@ constexpr double kRegisteredOnly = 2.5;  // of the limit, where only the naked m
 constexpr double kPooled_mm = 25;
 constexpr double kPooledShare = 0.25;
 constexpr double kPooledMargin_mm = 1;  // more than of a whole piece
-constexpr double kUnchangedMargin_mm = 3;
-constexpr double kPooledChange = 2;  // noise units: skin that nothing shades does not change so much
+constexpr double kPooledChange = 2;     // noise units: skin that nothing shades does not change so much
+constexpr double kPooledShadow = 0.35;  // of it: what clothes shade, they also send light to, and depth lies there
 
 // Skin that cloth encloses, on trunk or legs: a print of the skin's colour. Arms before the trunk stay.
 void close_islands(const ViewEvidence& view, double island_mm2, cv::Mat& cloth) {
@@ -95,7 +95,8 @@ cv::Mat pooled(const cv::Mat& values, const cv::Mat& use, int window_px) {
   return mean;
 }
 
-// The same where such cloth is one piece with bare skin, as beside a cuff: by what a hand's breadth says together of
+// The same where such cloth is one piece with bare skin, as beside a cuff; not on legs, where skirts bend the depth of
+// skin by the light they send there: by what a hand's breadth says together of
 // offset and of change against the naked shot.
 void raise_parts(const ViewEvidence& view, double raised_mm, double speck_mm2, cv::Mat& cloth) {
   if (view.naked_lab.empty() || view.moved) return;
@@ -104,11 +105,15 @@ void raise_parts(const ViewEvidence& view, double raised_mm, double speck_mm2, c
   const cv::Mat skin = view.body & ~cloth;
   const cv::Mat offset = pooled(view.offset_mm, skin & (view.offset_mm == view.offset_mm), window);
   const cv::Mat change = pooled(view.change, skin & (view.change == view.change), window);
-  cv::Mat raised = skin & (((offset > raised_mm + kPooledMargin_mm) & (change > kPooledChange)) |
-                           (offset > raised_mm + kUnchangedMargin_mm));
-  for (int y = 0; y < raised.rows; ++y)
-    for (int x = 0; x < raised.cols; ++x)
-      if (raised.at<uchar>(y, x) && bare_place(view, y, x) != BarePlace::none) raised.at<uchar>(y, x) = 0;
+  const cv::Mat shadow = pooled(cv::Mat_<float>(view.shadow) / 255, skin, window);
+  cv::Mat raised = skin & (offset > raised_mm + kPooledMargin_mm) & (change > kPooledChange) & (shadow < kPooledShadow);
+  for (int y = 0; y < raised.rows; ++y) {
+    for (int x = 0; x < raised.cols; ++x) {
+      const uchar code = view.part.at<uchar>(y, x);
+      if (code == 255 || is_leg(static_cast<BodyPart>(code)) || bare_place(view, y, x) != BarePlace::none)
+        raised.at<uchar>(y, x) = 0;
+    }
+  }
   remove_specks(raised, view.body, speck_mm2, px_mm);
   cloth |= raised & skin;
 }
