@@ -20,6 +20,7 @@ constexpr double kRegisteredOnly = 2.5;  // of the limit, where only the naked m
 // Of a part of a piece.
 constexpr double kPooled_mm = 25;
 constexpr double kPooledShare = 0.25;
+constexpr double kBesideCloth = 0.2;
 constexpr double kPooledMargin_mm = 1;  // more than of a whole piece
 constexpr double kPooledChange = 2;     // noise units: skin that nothing shades does not change so much
 constexpr double kPooledShadow = 0.35;  // of it: what clothes shade, they also send light to, and depth lies there
@@ -95,6 +96,28 @@ cv::Mat pooled(const cv::Mat& values, const cv::Mat& use, int window_px) {
   return mean;
 }
 
+// Without the pieces of `parts` of whose edge less than kBesideCloth lies at the cloth.
+cv::Mat beside_cloth(const cv::Mat& parts, const cv::Mat& cloth) {
+  cv::Mat labels, inner, near_cloth, result = parts.clone();
+  const int count = cv::connectedComponents(parts, labels, 4);
+  cv::erode(parts, inner, cv::Mat());
+  cv::dilate(cloth, near_cloth, cv::Mat());
+  std::vector<int> edge(count, 0), shared(count, 0);
+  for (int y = 0; y < parts.rows; ++y) {
+    for (int x = 0; x < parts.cols; ++x) {
+      const int label = labels.at<int>(y, x);
+      if (label == 0 || inner.at<uchar>(y, x)) continue;
+      ++edge[label];
+      shared[label] += near_cloth.at<uchar>(y, x) != 0;
+    }
+  }
+  for (int y = 0; y < parts.rows; ++y)
+    for (int x = 0; x < parts.cols; ++x)
+      if (const int label = labels.at<int>(y, x); label > 0 && shared[label] < kBesideCloth * edge[label])
+        result.at<uchar>(y, x) = 0;
+  return result;
+}
+
 // The same where such cloth is one piece with bare skin, as beside a cuff; not on legs, where skirts bend the depth of
 // skin by the light they send there: by what a hand's breadth says together of
 // offset and of change against the naked shot.
@@ -115,7 +138,7 @@ void raise_parts(const ViewEvidence& view, double raised_mm, double speck_mm2, c
     }
   }
   remove_specks(raised, view.body, speck_mm2, px_mm);
-  cloth |= raised & skin;
+  cloth |= beside_cloth(raised & skin, cloth);
 }
 
 }  // namespace
