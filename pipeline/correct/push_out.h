@@ -23,8 +23,9 @@ struct PushedOut {
 // The garment's vertices moved out of the closed body until no triangle of one meets a triangle of the other. Vertices
 // nearer than the gap go to the nearest point of the surface and the gap beyond it; where that would turn the cloth
 // over (a thin arm, entered from behind) they leave the way the cloth faces; triangles that are cut between their
-// vertices are lifted over what cuts them. Pushes fade over the neighbours. `beside` marks triangles of the body that
-// lie beside the cloth, not inside it (bare arms): cloth in them leaves towards its own inside.
+// vertices are lifted over what cuts them; what is still cut after many rounds is smoothed between pushes. Pushes fade
+// over the neighbours. `beside` marks triangles of the body that lie beside the cloth, not inside it (bare arms): cloth
+// in them leaves towards its own inside.
 PushedOut push_out(const Mesh& garment, const MeshQuery& body, const IntersectionFinder& finder,
                    const std::vector<char>& beside, const PushOutParams& params);
 

@@ -12,9 +12,10 @@ struct ClothTransportParams {
 };
 
 // The garment on the user. A point of cloth is the nearest point of the naked body and an offset: the map
-// takes the body's point to the user, where it is put on the surface, and the offset keeps its length, so that the
-// difference between the girths of cloth and body stays. The change against the map alone is diffused over the cloth,
-// because nearest points jump between legs and under arms. Sleeves follow the arms as far as they enclose them.
+// takes the body's point to the user, where it is put on the surface, and the offset keeps its length as far as there
+// is room before another part of the body, so that the difference between the girths of cloth and body stays. The
+// change against the map alone is diffused over the cloth, because nearest points jump between legs and under arms.
+// Sleeves follow the arms as far as they enclose them.
 struct Transported {
   std::vector<Vector3d> vertices;
   std::vector<double> sleeve;  // per vertex, 0 on trunk and legs to 1 on sleeves

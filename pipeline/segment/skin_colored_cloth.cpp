@@ -118,9 +118,8 @@ cv::Mat beside_cloth(const cv::Mat& parts, const cv::Mat& cloth) {
   return result;
 }
 
-// The same where such cloth is one piece with bare skin, as beside a cuff; not on legs, where skirts bend the depth of
-// skin by the light they send there: by what a hand's breadth says together of
-// offset and of change against the naked shot.
+// The same where such cloth is one piece with bare skin, as beside a cuff: by what 25 mm say together of offset and of
+// change against the naked shot. Not on legs, where skirts bend the depth of skin by the light they send there.
 void raise_parts(const ViewEvidence& view, double raised_mm, double speck_mm2, cv::Mat& cloth) {
   if (view.naked_lab.empty() || view.moved) return;
   const double px_mm = pixel_size_mm(view);
