@@ -1,9 +1,10 @@
 #include "scenes/mesh.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
+
+#include "scenes/disjoint_sets.h"
 
 namespace dressform {
 namespace {
@@ -85,19 +86,6 @@ std::vector<std::vector<int>> walk_loops(const Mesh& mesh, const EdgeTable& tabl
   }
   return loops;
 }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<int> parent_;
-};
 
 std::vector<char> used_vertices(const Mesh& mesh) {
   std::vector<char> used(mesh.vertices.size(), 0);

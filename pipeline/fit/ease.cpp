@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "scenes/disjoint_sets.h"
+
 namespace dressform {
 namespace {
 
@@ -25,11 +27,6 @@ std::vector<Line> section_lines(const Mesh& garment, double y) {
   std::map<std::pair<int, int>, int> point_of_edge;
   std::vector<Vector3d> points;
   std::vector<std::pair<int, int>> pieces;
-  std::vector<int> root;
-  const auto root_of = [&](int i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
   for (const auto& t : garment.triangles) {
     int ends[2] = {-1, -1};  // where the section enters the triangle, and leaves it
     for (int k = 0; k < 3; ++k) {
@@ -37,25 +34,22 @@ std::vector<Line> section_lines(const Mesh& garment, double y) {
       if ((a.y() < y) == (b.y() < y)) continue;
       const auto [at, fresh] =
           point_of_edge.emplace(std::minmax(t[k], t[(k + 1) % 3]), static_cast<int>(points.size()));
-      if (fresh) {
-        points.push_back(a + (y - a.y()) / (b.y() - a.y()) * (b - a));
-        root.push_back(at->second);
-      }
+      if (fresh) points.push_back(a + (y - a.y()) / (b.y() - a.y()) * (b - a));
       ends[a.y() < y] = at->second;
     }
-    if (ends[0] < 0) continue;
-    pieces.emplace_back(ends[0], ends[1]);
-    root[root_of(ends[0])] = root_of(ends[1]);
+    if (ends[0] >= 0) pieces.emplace_back(ends[0], ends[1]);
   }
+  DisjointSets sets(points.size());
+  for (const auto& [from, to] : pieces) sets.join(from, to);
   std::vector<Line> lines;
   std::vector<int> line_of(points.size(), -1), place(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    int& line = line_of[root_of(static_cast<int>(i))];
+    int& line = line_of[sets.root(static_cast<int>(i))];
     if (line < 0) line = static_cast<int>(lines.size()), lines.emplace_back();
     place[i] = static_cast<int>(lines[line].points.size());
     lines[line].points.push_back(points[i]);
   }
-  for (const auto& [from, to] : pieces) lines[line_of[root_of(from)]].pieces.emplace_back(place[from], place[to]);
+  for (const auto& [from, to] : pieces) lines[line_of[sets.root(from)]].pieces.emplace_back(place[from], place[to]);
   return lines;
 }
 

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 #include "pipeline/common/mesh_query.h"
 #include "pipeline/common/sector.h"
+#include "scenes/disjoint_sets.h"
 
 namespace dressform {
 namespace {
@@ -23,22 +23,14 @@ constexpr double kLeastSlope = 0.5;  // of the difference of the distances; at m
 
 // Connected pieces of the garment below a height: per vertex the least vertex of its piece, -1 above.
 std::vector<int> pieces_below(const Mesh& garment, double y) {
-  std::vector<int> root(garment.vertices.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto root_of = [&](int i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  DisjointSets sets(garment.vertices.size());
   const auto below = [&](int v) { return garment.vertices[v].y() < y; };
   for (const auto& t : garment.triangles)
-    for (int k = 0; k < 3; ++k) {
-      if (!below(t[k]) || !below(t[(k + 1) % 3])) continue;
-      const int a = root_of(t[k]), b = root_of(t[(k + 1) % 3]);
-      root[std::max(a, b)] = std::min(a, b);
-    }
-  std::vector<int> piece(root.size(), -1);
-  for (std::size_t v = 0; v < piece.size(); ++v)
-    if (below(static_cast<int>(v))) piece[v] = root_of(static_cast<int>(v));
+    for (int k = 0; k < 3; ++k)
+      if (below(t[k]) && below(t[(k + 1) % 3])) sets.join(t[k], t[(k + 1) % 3]);
+  std::vector<int> piece(garment.vertices.size(), -1);
+  for (int v = 0; v < static_cast<int>(piece.size()); ++v)
+    if (below(v)) piece[v] = sets.root(v);
   return piece;
 }
 
@@ -101,8 +93,8 @@ struct Neighbours {
         other(part_of(user, is_other)) {}
 };
 
-void keep_apart(const ClothSides& sides, const Neighbours& parts, const StandingBody& user, const MeshQuery& body,
-                double gap_m, std::vector<Vector3d>& cloth) {
+void keep_apart(const ClothSides& sides, const Neighbours& parts, const StandingBody& user,
+                const MeshQuery& user_surface, double gap_m, std::vector<Vector3d>& cloth) {
   if (parts.one.mesh().triangles.empty() || parts.other.mesh().triangles.empty()) return;
   tbb::parallel_for(std::size_t{0}, cloth.size(), [&](std::size_t v) {
     if (sides[v] == 0) return;
@@ -113,8 +105,8 @@ void keep_apart(const ClothSides& sides, const Neighbours& parts, const Standing
       // Newton's step along the difference of the distances to the two parts, which is zero midway. Distances are
       // signed by the whole body, which is closed where a part by itself is not.
       const Vector3d p = cloth[v];
-      const auto to_own = own.closest(p), to_other = other.closest(p), to_body = body.closest(p);
-      const bool inside = body.signed_distance(p, to_body) < 0;
+      const auto to_own = own.closest(p), to_other = other.closest(p), to_body = user_surface.closest(p);
+      const bool inside = user_surface.signed_distance(p, to_body) < 0;
       const BodyPart nearest = user.limbs.part_of(to_body.triangle);
       const double from_own = inside && is_own(nearest) ? -to_own.distance : to_own.distance;
       const double from_other = inside && is_other(nearest) ? -to_other.distance : to_other.distance;
@@ -146,9 +138,8 @@ ClothLimbs limbs_of_cloth(const Mesh& garment, const StandingBody& wearer) {
 }
 
 std::vector<Vector3d> limbs_kept_apart(const Mesh& fitted, const ClothLimbs& limbs, const StandingBody& user,
-                                       double gap_m) {
+                                       const MeshQuery& user_surface, double gap_m) {
   std::vector<Vector3d> result = fitted.vertices;
-  const MeshQuery body(user.mesh);
   const auto any = [](const ClothSides& sides) {
     return std::any_of(sides.begin(), sides.end(), [](signed char side) { return side != 0; });
   };
@@ -157,7 +148,7 @@ std::vector<Vector3d> limbs_kept_apart(const Mesh& fitted, const ClothLimbs& lim
                Neighbours(
                    user, [](BodyPart part) { return part == BodyPart::left_leg; },
                    [](BodyPart part) { return part == BodyPart::right_leg; }),
-               user, body, gap_m, result);
+               user, user_surface, gap_m, result);
   for (int side = 0; side < 2; ++side) {
     if (!any(limbs.arms[side])) continue;
     const BodyPart arm = side == 0 ? BodyPart::left_arm : BodyPart::right_arm;
@@ -165,7 +156,7 @@ std::vector<Vector3d> limbs_kept_apart(const Mesh& fitted, const ClothLimbs& lim
                Neighbours(
                    user, [arm](BodyPart part) { return part == arm; },
                    [](BodyPart part) { return part == BodyPart::torso || is_leg(part); }),
-               user, body, gap_m, result);
+               user, user_surface, gap_m, result);
   }
   return result;
 }

@@ -21,6 +21,6 @@ ClothLimbs limbs_of_cloth(const Mesh& garment, const StandingBody& wearer);
 // and between each arm and the rest: what touches presses the cloth between it flat, and a garment never passes through
 // itself there. Cloth that is on its own side stays.
 std::vector<Vector3d> limbs_kept_apart(const Mesh& fitted, const ClothLimbs& limbs, const StandingBody& user,
-                                       double gap_m);
+                                       const MeshQuery& user_surface, double gap_m);
 
 }  // namespace dressform

@@ -48,7 +48,7 @@ TEST(LimbsApart, ClothStaysOnItsSideOfTheMiddle) {
   const StandingBody body = analyse_body(make_figure({}));
   const Mesh legs = crossing_legs();
   const ClothLimbs limbs = limbs_of_cloth(legs, body);
-  const auto apart = limbs_kept_apart(legs, limbs, body, 0.001);
+  const auto apart = limbs_kept_apart(legs, limbs, body, MeshQuery(body.mesh), 0.001);
   int moved = 0;
   for (std::size_t v = 0; v < apart.size(); ++v) {
     const double own = limbs.legs[v];

@@ -68,9 +68,9 @@ Mesh fitted_mesh(const Mesh& garment, const StandingBody& naked, const BodyWarp&
   for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = 1 - moved.sleeve[v];
   // Before the ease is measured, so that no sleeve stands in the trunk's cloth; and after it was given back.
   const ClothLimbs limbs = limbs_of_cloth(garment, naked);
-  result.vertices = limbs_kept_apart(result, limbs, user, kBetweenLimbs_m);
+  result.vertices = limbs_kept_apart(result, limbs, user, user_surface, kBetweenLimbs_m);
   result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01, params.ease_rounds);
-  result.vertices = limbs_kept_apart(result, limbs, user, kBetweenLimbs_m);
+  result.vertices = limbs_kept_apart(result, limbs, user, user_surface, kBetweenLimbs_m);
   return result;
 }
 

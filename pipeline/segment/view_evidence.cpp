@@ -102,6 +102,16 @@ DepthFacts depth_facts(const cv::Mat& dressed_mm, const cv::Mat& naked_mm, const
   return facts;
 }
 
+// Of a BodyPart's code, 255 for none, and how far along its limb.
+BarePlace bare_place(uchar code, float limb_end) {
+  if (code == 255) return BarePlace::none;
+  const auto part = static_cast<BodyPart>(code);
+  if (part == BodyPart::head) return BarePlace::head;
+  if (is_arm(part) && limb_end > 0.85f) return BarePlace::hand;
+  if (is_leg(part) && limb_end > 0.93f) return BarePlace::foot;
+  return BarePlace::none;
+}
+
 float median(std::vector<float> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
   return values[values.size() / 2];
@@ -112,9 +122,8 @@ bool mannequin_moved(const DepthFacts& facts, double limit_mm) {
   std::vector<float> shifts;
   for (int y = 0; y < facts.part.rows; ++y) {
     for (int x = 0; x < facts.part.cols; ++x) {
-      const auto part = static_cast<BodyPart>(facts.part.at<uchar>(y, x));
-      const bool arm = is_arm(part);
-      if (part != BodyPart::head && !(arm && facts.limb_end.at<float>(y, x) > 0.85f)) continue;
+      const BarePlace place = bare_place(facts.part.at<uchar>(y, x), facts.limb_end.at<float>(y, x));
+      if (place != BarePlace::head && place != BarePlace::hand) continue;
       if (const float shift = facts.shift_mm.at<float>(y, x); !std::isnan(shift)) shifts.push_back(std::abs(shift));
     }
   }
@@ -248,14 +257,7 @@ void compare_colors(const Shot& dressed, const Shot& naked, const ViewMasks& mas
 }  // namespace
 
 BarePlace bare_place(const ViewEvidence& view, int v, int u) {
-  const uchar code = view.part.at<uchar>(v, u);
-  if (code == 255) return BarePlace::none;
-  const auto part = static_cast<BodyPart>(code);
-  const float end = view.limb_end.at<float>(v, u);
-  if (part == BodyPart::head) return BarePlace::head;
-  if (is_arm(part) && end > 0.85f) return BarePlace::hand;
-  if (is_leg(part) && end > 0.93f) return BarePlace::foot;
-  return BarePlace::none;
+  return bare_place(view.part.at<uchar>(v, u), view.limb_end.at<float>(v, u));
 }
 
 ViewEvidence view_evidence(const Shot& dressed, const Shot* naked, const SensorCalibration& sensor,
