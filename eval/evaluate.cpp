@@ -22,7 +22,7 @@ Scores evaluate(const RunOutputs& outputs, const GroundTruth& truth, const Evalu
       [&] { parts[4] = evaluation::surfaces(outputs, truth, world_from_model, options); },
       [&] { parts[5] = evaluation::openings(outputs, truth, world_from_model); },
       [&] {
-        if (options.pictures) parts[6] = evaluation::textures(outputs, truth, world_from_model);
+        if (options.images) parts[6] = evaluation::textures(outputs, truth, world_from_model);
       },
       [&] { parts[7] = evaluation::fit(outputs, truth); },
       [&] { parts[8] = evaluation::correction(outputs, truth, options.seed); });

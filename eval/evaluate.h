@@ -35,14 +35,14 @@ struct RunOutputs {
   std::map<std::string, cv::Mat> labels;             // by sensor, colour size: 0 none 1 skin 2 top 3 bottom
 };
 
-// Reads RUN/out; label pictures from RUN/stages/*_segment/<sensor>.png or RUN/out/labels/<sensor>.png. Throws
+// Reads RUN/out; label images from RUN/stages/*_segment/<sensor>.png or RUN/out/labels/<sensor>.png. Throws
 // InputError naming the file that is there but damaged, and when there is no out/registration.json.
 RunOutputs read_run_outputs(const std::filesystem::path& run_folder);
 
 struct EvaluateOptions {
   std::string gauge_sensor;           // joins model and world; empty: the first of the truth's sensors by name
   double sample_spacing_m = 0.00125;  // of the points on surfaces
-  bool pictures = true;               // held-out views (needs the renderer)
+  bool images = true;                 // held-out views (needs the renderer)
   Seed seed = 1;                      // of the sample points
 };
 

@@ -22,7 +22,7 @@ Mesh sleeve(double radius, double low, double high) {
   return test_meshes::tube(radius, 0.8 * radius, {0, 0, 0}, low, high, 180, 170, false);
 }
 
-// Sizes of a full run: bodies of 1.9 square metres, two garments of 60k triangles, four pictures of labels.
+// Sizes of a full run: bodies of 1.9 square metres, two garments of 60k triangles, four images of labels.
 void evaluate_full_size(benchmark::State& state) {
   GroundTruth truth;
   RunOutputs outputs;

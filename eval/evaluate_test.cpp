@@ -224,7 +224,7 @@ TEST(Evaluate, FitFaultsShow) {
   EXPECT_EQ(status(scores, "fit", "bottom/ease_chest_mm@3"), "absent");
 }
 
-TEST(Evaluate, GainIsTakenOutOfPictures) {
+TEST(Evaluate, GainIsTakenOutOfImages) {
   const GroundTruth truth = some_truth();
   RunOutputs outputs = perfect_outputs(truth);
   outputs.garments["top"].textured.texture = cv::Mat(truth.garments.at("top").textured.texture * 0.6);

@@ -134,7 +134,7 @@ HeldOutScores compare_views(const HeldOutViews& views) {
     values += 3.0 * cv::countNonZero(both[i]);
   }
   scores.ssim_observed /= with_seen;  // not a number where no view shows anything that was seen
-  // 100 dB stands for equal pictures.
+  // 100 dB stands for equal images.
   scores.psnr_db = std::min(100.0, 10 * std::log10(255.0 * 255.0 * values / squares));
   scores.de2000_mean = mean(differences);
   scores.de2000_p95 = quantile(differences, 0.95);

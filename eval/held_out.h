@@ -20,7 +20,7 @@ struct HeldOutScores {
   long pixels = 0;
 };
 
-// The pictures that the scores are taken from: one row per view, estimate (after the gain) left, truth right.
+// The images that the scores are taken from: one row per view, estimate (after the gain) left, truth right.
 struct HeldOutViews {
   std::vector<cv::Mat> estimates, truths;            // 8-bit BGR; estimates before the gain
   std::vector<cv::Mat> estimate_masks, truth_masks;  // uint8

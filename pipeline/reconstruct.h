@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/artifact_store.h"
 #include "pipeline/calibrate/calibrate.h"
 #include "pipeline/correct/correct.h"
-#include "pipeline/made.h"
 #include "pipeline/multipath/multipath.h"
+#include "pipeline/run/artifact_store.h"
+#include "pipeline/run/lazy_artifact.h"
 
 namespace dressform {
 
@@ -33,42 +33,43 @@ struct StageRecord {
 };
 using StageProgress = std::function<void(const StageRecord&, bool finished)>;
 
-// A capture session as the road takes it: content hashes at once, pictures only when a stage asks for them.
+// A capture session as the pipeline takes it: content hashes at once, images only when a stage asks for them.
 struct SessionSource {
-  Made<CaptureSession> session;
-  Made<DepthScan> scan_naked;
-  std::optional<Made<DepthScan>> scan_user;  // absent: the garments are made but not fitted
+  LazyArtifact<CaptureSession> session;
+  LazyArtifact<DepthScan> scan_naked;
+  std::optional<LazyArtifact<DepthScan>> scan_user;  // absent: the garments are made but not fitted
   std::vector<std::string> sensors;
   std::string scan_naked_sensor, scan_user_sensor;
 };
 // `check` reads and checks the whole session now, so that a damaged file is an InputError before anything is written.
 SessionSource open_session(const std::filesystem::path& folder, bool check);
 
-// Everything the road makes, in its order.
+// Everything the pipeline makes, in its order.
 struct Reconstruction {
   std::vector<std::string> sensors;
-  Made<Calibrated> calibrated;
-  Made<Calibration> calibration;  // its cameras
-  Made<Multipath> multipath;
-  Made<BodyModel> naked;
-  Made<ExtractedViews> extracted;
-  Made<Registration> registration;
-  Made<Segmentation> segmentation;
-  Made<FilledViews> filled;
-  Made<ClosedGarments> closed;
-  Made<OpenGarments> opened;
-  Made<TexturedGarments> textured;
-  std::optional<Made<BodyModel>> user;
-  std::optional<Made<FittedGarments>> fitted;
-  std::optional<Made<CorrectedGarments>> corrected;
+  LazyArtifact<Calibrated> calibrated;
+  LazyArtifact<Calibration> calibration;  // its cameras
+  LazyArtifact<Multipath> multipath;
+  LazyArtifact<BodyModel> naked;
+  LazyArtifact<ExtractedViews> extracted;
+  LazyArtifact<Registration> registration;
+  LazyArtifact<Segmentation> segmentation;
+  LazyArtifact<FilledViews> filled;
+  LazyArtifact<ClosedGarments> closed;
+  LazyArtifact<OpenGarments> opened;
+  LazyArtifact<TexturedGarments> textured;
+  std::optional<LazyArtifact<BodyModel>> user;
+  std::optional<LazyArtifact<FittedGarments>> fitted;
+  std::optional<LazyArtifact<CorrectedGarments>> corrected;
   std::vector<StageRecord> records;
 };
 
-// The whole road. Throws InputError for unknown stages, variants and parameters before any stage runs.
+// The whole pipeline. Throws InputError for unknown stages, variants and parameters before any stage runs.
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
                            const StageProgress& progress = {});
 
-// The registered stages in the order of the road, with their variants and parameters: for --help, checks and reports.
+// The registered stages in the order of the pipeline, with their variants and parameters: for --help, checks and
+// reports.
 struct StageDescription {
   struct VariantDescription {
     std::string name;

@@ -16,8 +16,8 @@ struct Lettering {
   double scale;
   int thickness;
   cv::Size size(const std::string& text) const { return cv::getTextSize(text, kFont, scale, thickness, nullptr); }
-  void write(cv::Mat& picture, const std::string& text, cv::Point left_middle) const {
-    cv::putText(picture, text, {left_middle.x, left_middle.y + size(text).height / 2}, kFont, scale,
+  void write(cv::Mat& image, const std::string& text, cv::Point left_middle) const {
+    cv::putText(image, text, {left_middle.x, left_middle.y + size(text).height / 2}, kFont, scale,
                 cv::Scalar(30, 30, 30), thickness, cv::LINE_AA);
   }
 };
@@ -42,24 +42,24 @@ void draw_ticks(cv::Mat& panel, const cv::Rect& bar, double minimum, double maxi
 
 }  // namespace
 
-cv::Mat with_color_bar(const cv::Mat& picture, double minimum, double maximum, const std::string& unit,
+cv::Mat with_color_bar(const cv::Mat& image, double minimum, double maximum, const std::string& unit,
                        const std::string& title) {
-  if (picture.type() != CV_8UC3 || picture.empty() || !(maximum > minimum) || !std::isfinite(maximum - minimum))
-    throw std::invalid_argument("with_color_bar: an 8-bit BGR picture and minimum < maximum are needed");
-  const double scale = std::clamp(picture.rows / 900.0, 0.35, 1.2);
+  if (image.type() != CV_8UC3 || image.empty() || !(maximum > minimum) || !std::isfinite(maximum - minimum))
+    throw std::invalid_argument("with_color_bar: an 8-bit BGR image and minimum < maximum are needed");
+  const double scale = std::clamp(image.rows / 900.0, 0.35, 1.2);
   const Lettering letters{scale, scale > 0.7 ? 2 : 1};
   const int line = letters.size("0g").height, bar_width = std::max(8, static_cast<int>(28 * scale));
   const std::string heading = unit.empty() ? title : title.empty() ? unit : title + " [" + unit + "]";
   const int ticks_width = letters.size("-00000.0").width + 2 * bar_width;
   const int width = std::max(letters.size(heading).width + 2 * line, ticks_width + 2 * line);
-  cv::Mat panel(picture.rows, width, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat panel(image.rows, width, CV_8UC3, cv::Scalar::all(255));
   letters.write(panel, heading, {line, 2 * line});
-  const int top = std::min(4 * line, picture.rows / 3), bottom = std::min(2 * line, picture.rows / 4);
-  const cv::Rect bar(line, top, bar_width, std::max(2, picture.rows - top - bottom));
+  const int top = std::min(4 * line, image.rows / 3), bottom = std::min(2 * line, image.rows / 4);
+  const cv::Rect bar(line, top, bar_width, std::max(2, image.rows - top - bottom));
   draw_bar(panel, bar);
   draw_ticks(panel, bar, minimum, maximum, letters);
   cv::Mat result;
-  cv::hconcat(picture, panel, result);
+  cv::hconcat(image, panel, result);
   return result;
 }
 

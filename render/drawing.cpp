@@ -48,7 +48,7 @@ UploadedItems::~UploadedItems() {
     context_.gl.DeleteVertexArrays(1, &item.vertex_array);
     const unsigned buffers[] = {item.vertices, item.indices};
     context_.gl.DeleteBuffers(2, buffers);
-    context_.gl.DeleteTextures(1, &item.picture);
+    context_.gl.DeleteTextures(1, &item.image);
   }
 }
 
@@ -56,8 +56,8 @@ void UploadedItems::upload(const RenderItem& item) {
   const DrawData data = draw_data(item, origin_);
   Uploaded up{item.shading, item.color, std::clamp(item.opacity, 0.f, 1.f), item.two_sided, item.points != nullptr};
   if (item.shading == Shading::textured || item.shading == Shading::unlit)
-    up.picture = upload_picture(item.textured->texture, true);
-  if (item.shading == Shading::scalar) up.picture = upload_picture(scalar_colors(), false);
+    up.image = upload_image(item.textured->texture, true);
+  if (item.shading == Shading::scalar) up.image = upload_image(scalar_colors(), false);
 
   const Gl& gl = context_.gl;
   gl.GenVertexArrays(1, &up.vertex_array);
@@ -80,13 +80,13 @@ void UploadedItems::upload(const RenderItem& item) {
   items_.push_back(up);
 }
 
-unsigned UploadedItems::upload_picture(const cv::Mat& picture, bool filtered) {
+unsigned UploadedItems::upload_image(const cv::Mat& image, bool filtered) {
   const Gl& gl = context_.gl;
   int largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  cv::Mat fitting = picture.isContinuous() ? picture : picture.clone();
-  if (const double shrink = static_cast<double>(largest) / std::max(picture.cols, picture.rows); shrink < 1)
-    cv::resize(picture, fitting, {}, shrink, shrink, cv::INTER_AREA);
+  cv::Mat fitting = image.isContinuous() ? image : image.clone();
+  if (const double shrink = static_cast<double>(largest) / std::max(image.cols, image.rows); shrink < 1)
+    cv::resize(image, fitting, {}, shrink, shrink, cv::INTER_AREA);
   unsigned texture = 0;
   gl.GenTextures(1, &texture);
   gl.ActiveTexture(GL_TEXTURE0);
@@ -133,7 +133,7 @@ void UploadedItems::draw(Programs& programs, const RenderView& view, bool covera
 void UploadedItems::draw_item(const Uploaded& item) const {
   const Gl& gl = context_.gl;
   (item.two_sided ? gl.Disable : gl.Enable)(GL_CULL_FACE);
-  gl.BindTexture(GL_TEXTURE_2D, item.picture);
+  gl.BindTexture(GL_TEXTURE_2D, item.image);
   gl.BindVertexArray(item.vertex_array);
   if (item.points) gl.DrawArrays(GL_POINTS, 0, item.count);
   if (!item.points) gl.DrawElements(GL_TRIANGLES, item.count, GL_UNSIGNED_INT, nullptr);

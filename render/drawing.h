@@ -7,7 +7,7 @@
 
 namespace dressform {
 
-// The items of a picture in OpenGL's memory, for any number of views.
+// The items of an image in OpenGL's memory, for any number of views.
 class UploadedItems {
  public:
   UploadedItems(GlContext& context, const std::vector<RenderItem>& items);
@@ -25,12 +25,12 @@ class UploadedItems {
     Eigen::Vector3f color;
     float opacity;
     bool two_sided, points;
-    unsigned vertex_array = 0, vertices = 0, indices = 0, picture = 0;
+    unsigned vertex_array = 0, vertices = 0, indices = 0, image = 0;
     int count = 0;
   };
 
   void upload(const RenderItem& item);
-  unsigned upload_picture(const cv::Mat& picture, bool filtered);
+  unsigned upload_image(const cv::Mat& image, bool filtered);
   void draw_item(const Uploaded& item) const;
   void draw_nearest_surface(const Uploaded& item) const;
 
@@ -40,7 +40,7 @@ class UploadedItems {
   std::vector<Uploaded> items_;
 };
 
-// Clip space of a pinhole camera with pixel centres at integers: x, y to [-1, 1] over the picture, upside down for
+// Clip space of a pinhole camera with pixel centres at integers: x, y to [-1, 1] over the image, upside down for
 // OpenGL so that the first row read back is the top one.
 Eigen::Matrix4d clip_from_camera(const Camera& camera, double near_m, double far_m);
 

@@ -90,7 +90,7 @@ class GlContext {
 
  private:
   void* handle_ = nullptr;
-  std::vector<unsigned char> buffer_;  // what OSMesa wants to draw into; the pictures are drawn into framebuffers
+  std::vector<unsigned char> buffer_;  // what OSMesa wants to draw into; the images are drawn into framebuffers
 };
 
 }  // namespace dressform

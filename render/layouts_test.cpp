@@ -86,11 +86,11 @@ TEST(Layouts, ContactSheetHasItsTiles) {
 }
 
 TEST(ColorBar, IsAppendedWithItsColoursInOrder) {
-  const cv::Mat picture(600, 300, CV_8UC3, cv::Scalar(10, 20, 30));
-  const cv::Mat result = with_color_bar(picture, -2, 12.5, "mm", "distance");
+  const cv::Mat image(600, 300, CV_8UC3, cv::Scalar(10, 20, 30));
+  const cv::Mat result = with_color_bar(image, -2, 12.5, "mm", "distance");
   ASSERT_EQ(result.rows, 600);
   ASSERT_GT(result.cols, 340);
-  EXPECT_EQ(cv::norm(result(cv::Rect(0, 0, 300, 600)), picture, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(result(cv::Rect(0, 0, 300, 600)), image, cv::NORM_INF), 0);
   const cv::Vec3b lowest = scalar_colors().at<cv::Vec3b>(2), highest = scalar_colors().at<cv::Vec3b>(253);
   int lowest_row = -1, highest_row = -1;
   for (int y = 0; y < result.rows; ++y)
@@ -104,7 +104,7 @@ TEST(ColorBar, IsAppendedWithItsColoursInOrder) {
   EXPECT_GE(highest_row, 0);
 }
 
-TEST(ColorBar, SurvivesSmallPicturesAndRefusesEmptyRanges) {
+TEST(ColorBar, SurvivesSmallImagesAndRefusesEmptyRanges) {
   EXPECT_EQ(with_color_bar(cv::Mat(20, 20, CV_8UC3, cv::Scalar()), 0, 1e-4, "", "").rows, 20);
   EXPECT_THROW(with_color_bar(cv::Mat(20, 20, CV_8UC3, cv::Scalar()), 1, 1, "mm", "t"), std::invalid_argument);
   EXPECT_THROW(with_color_bar(cv::Mat(), 0, 1, "mm", "t"), std::invalid_argument);

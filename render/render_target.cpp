@@ -37,7 +37,7 @@ unsigned RenderTarget::make(int samples, unsigned& color, unsigned* depth) {
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, *depth);
   }
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("OpenGL cannot draw pictures of " + std::to_string(width_) + " x " +
+    throw std::runtime_error("OpenGL cannot draw images of " + std::to_string(width_) + " x " +
                              std::to_string(height_));
   return framebuffer;
 }
@@ -53,10 +53,10 @@ cv::Mat RenderTarget::read() {
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
   gl.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl.BindFramebuffer(GL_FRAMEBUFFER, resolved_);
-  cv::Mat picture(height_, width_, CV_8UC4);
+  cv::Mat image(height_, width_, CV_8UC4);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl.ReadPixels(0, 0, width_, height_, GL_BGRA, GL_UNSIGNED_BYTE, picture.data);
-  return picture;
+  gl.ReadPixels(0, 0, width_, height_, GL_BGRA, GL_UNSIGNED_BYTE, image.data);
+  return image;
 }
 
 }  // namespace dressform

@@ -5,7 +5,7 @@
 
 namespace dressform {
 
-// A picture to draw into: colour and depth with `samples` per pixel, which are averaged when it is read.
+// An image to draw into: colour and depth with `samples` per pixel, which are averaged when it is read.
 class RenderTarget {
  public:
   // samples is lowered to what OpenGL offers; sizes it cannot make throw std::runtime_error.

@@ -17,7 +17,7 @@ void check_request(const RenderView& view, const std::vector<RenderItem>& items,
   for (const RenderItem& item : items) check_item(item);
 }
 
-// Colours come multiplied by their coverage; pictures with a transparent background are stored without.
+// Colours come multiplied by their coverage; images with a transparent background are stored without.
 cv::Mat unmultiplied(const cv::Mat& bgra) {
   cv::Mat result = bgra.clone();
   result.forEach<cv::Vec4b>([](cv::Vec4b& pixel, const int*) {
@@ -57,9 +57,9 @@ struct Renderer::Context {
     gl.gl.ClearColor(back.x(), back.y(), back.z(), options.transparent_background ? 0.f : 1.f);
     gl.gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     items.draw(programs, view, coverage);
-    cv::Mat picture = target->read();
-    gl.check("drawing a picture");
-    return picture;
+    cv::Mat image = target->read();
+    gl.check("drawing an image");
+    return image;
   }
 
   cv::Mat antialiased(const UploadedItems& items, const RenderView& view, const RenderOptions& options) {
@@ -67,9 +67,9 @@ struct Renderer::Context {
     RenderOptions single = options;
     single.samples = 1;
     const cv::Mat large = draw(items, {doubled(view.camera), view.camera_from_world}, single, false);
-    cv::Mat picture;
-    cv::resize(large, picture, {view.camera.width, view.camera.height}, 0, 0, cv::INTER_AREA);
-    return picture;
+    cv::Mat image;
+    cv::resize(large, image, {view.camera.width, view.camera.height}, 0, 0, cv::INTER_AREA);
+    return image;
   }
 };
 
@@ -83,15 +83,15 @@ std::vector<cv::Mat> Renderer::render(const std::vector<RenderView>& views, cons
   for (const RenderView& view : views) check_request(view, items, options);
   context_->gl.make_current();
   const UploadedItems uploaded(context_->gl, items);
-  std::vector<cv::Mat> pictures;
+  std::vector<cv::Mat> images;
   for (const RenderView& view : views) {
     const cv::Mat bgra = context_->antialiased(uploaded, view, options);
-    cv::Mat picture;
-    if (options.transparent_background) picture = unmultiplied(bgra);
-    if (!options.transparent_background) cv::cvtColor(bgra, picture, cv::COLOR_BGRA2BGR);
-    pictures.push_back(picture);
+    cv::Mat image;
+    if (options.transparent_background) image = unmultiplied(bgra);
+    if (!options.transparent_background) cv::cvtColor(bgra, image, cv::COLOR_BGRA2BGR);
+    images.push_back(image);
   }
-  return pictures;
+  return images;
 }
 
 cv::Mat Renderer::render(const RenderView& view, const std::vector<RenderItem>& items, const RenderOptions& options) {

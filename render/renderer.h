@@ -14,7 +14,7 @@ namespace dressform {
 
 enum class Shading { textured, unlit, shaded, normals, wireframe, points, scalar };
 
-// One thing in a picture. Exactly one of `mesh` (any Shading but points) and `points` is set.
+// One thing in an image. Exactly one of `mesh` (any Shading but points) and `points` is set.
 struct RenderItem {
   const Mesh* mesh = nullptr;
   const TexturedMesh* textured = nullptr;  // instead of mesh: textured, unlit
@@ -39,7 +39,7 @@ struct RenderOptions {
   bool transparent_background = false;
 };
 
-// Off-screen OpenGL 4.5 core through OSMesa; one context for the life of the object. Not thread safe; pictures are the
+// Off-screen OpenGL 4.5 core through OSMesa; one context for the life of the object. Not thread safe; images are the
 // same whatever the number of threads. Throws std::runtime_error when no context can be made.
 class Renderer {
  public:
@@ -48,7 +48,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // 8-bit BGR picture of camera.width x camera.height (BGRA with a transparent background).
+  // 8-bit BGR image of camera.width x camera.height (BGRA with a transparent background).
   cv::Mat render(const RenderView& view, const std::vector<RenderItem>& items, const RenderOptions& options = {});
 
   // The same for several views; the items are prepared once.
@@ -72,8 +72,8 @@ cv::Mat four_views(Renderer& renderer, const std::vector<RenderItem>& items, int
 cv::Mat contact_sheet(Renderer& renderer, const std::vector<RenderItem>& items, int count, int columns, int tile_height,
                       const RenderOptions& = {});
 
-// Appends a colour bar with ticks and unit to the right of a picture of Shading::scalar.
-cv::Mat with_color_bar(const cv::Mat& picture, double minimum, double maximum, const std::string& unit,
+// Appends a colour bar with ticks and unit to the right of an image of Shading::scalar.
+cv::Mat with_color_bar(const cv::Mat& image, double minimum, double maximum, const std::string& unit,
                        const std::string& title);
 
 }  // namespace dressform

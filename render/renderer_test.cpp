@@ -74,7 +74,7 @@ RenderItem item_of(const PointCloud& points) {
   return item;
 }
 
-cv::Vec3b pixel(const cv::Mat& picture, int x, int y) { return picture.at<cv::Vec3b>(y, x); }
+cv::Vec3b pixel(const cv::Mat& image, int x, int y) { return image.at<cv::Vec3b>(y, x); }
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
@@ -103,7 +103,7 @@ TEST_F(RendererTest, SquareCoversTheExpectedPixels) {
   EXPECT_TRUE(same(mask, expected));
 }
 
-TEST_F(RendererTest, PrincipalPointMovesThePicture) {
+TEST_F(RendererTest, PrincipalPointMovesTheImage) {
   RenderView view = simple_view();
   view.camera.cx += 10;
   view.camera.cy -= 5;
@@ -144,25 +144,25 @@ TEST_F(RendererTest, TextureIsNotMirrored) {
   texture(cv::Rect(48, 0, 16, 16)).setTo(cv::Scalar(0, 255, 0));  // top right green
   texture(cv::Rect(0, 48, 16, 16)).setTo(cv::Scalar(255, 0, 0));  // bottom left blue
   const TexturedMesh mesh = textured_square(texture);
-  const cv::Mat picture = renderer().render(simple_view(), {item_of(mesh)});
-  EXPECT_EQ(pixel(picture, 34, 24), cv::Vec3b(0, 0, 255));
-  EXPECT_EQ(pixel(picture, 65, 24), cv::Vec3b(0, 255, 0));
-  EXPECT_EQ(pixel(picture, 34, 55), cv::Vec3b(255, 0, 0));
-  EXPECT_EQ(pixel(picture, 50, 40), cv::Vec3b(200, 200, 200));
-  EXPECT_EQ(pixel(picture, 5, 5), cv::Vec3b(255, 255, 255));
+  const cv::Mat image = renderer().render(simple_view(), {item_of(mesh)});
+  EXPECT_EQ(pixel(image, 34, 24), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(pixel(image, 65, 24), cv::Vec3b(0, 255, 0));
+  EXPECT_EQ(pixel(image, 34, 55), cv::Vec3b(255, 0, 0));
+  EXPECT_EQ(pixel(image, 50, 40), cv::Vec3b(200, 200, 200));
+  EXPECT_EQ(pixel(image, 5, 5), cv::Vec3b(255, 255, 255));
 }
 
-TEST_F(RendererTest, UnlitPictureEqualsATextureOfItsSize) {
+TEST_F(RendererTest, UnlitImageEqualsATextureOfItsSize) {
   cv::Mat texture(40, 40, CV_8UC3);
   cv::randu(texture, 0, 256);
   const TexturedMesh mesh = textured_square(texture);
   RenderOptions options;
   options.samples = 1;
-  const cv::Mat picture = renderer().render(simple_view(), {item_of(mesh)}, options);
-  EXPECT_LE(cv::norm(picture(cv::Rect(30, 20, 40, 40)), texture, cv::NORM_INF), 2);
+  const cv::Mat image = renderer().render(simple_view(), {item_of(mesh)}, options);
+  EXPECT_LE(cv::norm(image(cv::Rect(30, 20, 40, 40)), texture, cv::NORM_INF), 2);
 }
 
-TEST_F(RendererTest, SmallPictureOfAFineTextureIsItsMean) {
+TEST_F(RendererTest, SmallImageOfAFineTextureIsItsMean) {
   cv::Mat texture(1024, 1024, CV_8UC3);
   for (int y = 0; y < texture.rows; ++y)
     for (int x = 0; x < texture.cols; ++x)
@@ -224,20 +224,20 @@ TEST_F(RendererTest, WireframeDrawsTheDiagonalAndHidesWhatIsBehind) {
   const Mesh mesh = square(1, 2), behind = square(0.9, 3);
   RenderItem item = item_of(mesh, Shading::wireframe), hidden = item_of(behind, Shading::wireframe);
   item.color = hidden.color = {0.1f, 0.2f, 0.7f};
-  const cv::Mat picture = renderer().render(simple_view(), {item, hidden});
-  EXPECT_TRUE(same(picture, renderer().render(simple_view(), {item})));
-  EXPECT_LT(pixel(picture, 45, 35)[1], 100);  // on the diagonal
-  EXPECT_GT(pixel(picture, 60, 35)[1], 150);  // inside a triangle
+  const cv::Mat image = renderer().render(simple_view(), {item, hidden});
+  EXPECT_TRUE(same(image, renderer().render(simple_view(), {item})));
+  EXPECT_LT(pixel(image, 45, 35)[1], 100);  // on the diagonal
+  EXPECT_GT(pixel(image, 60, 35)[1], 150);  // inside a triangle
 }
 
 TEST_F(RendererTest, PointsShowTheirColours) {
   PointCloud cloud;
   cloud.points = {{0, 0, 1}, {0.5, 0, 1}, {std::nan(""), 0, 1}};
   cloud.colors = {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
-  const cv::Mat picture = renderer().render(simple_view(), {item_of(cloud)}, {1, {0, 0, 0}, false});
-  EXPECT_EQ(pixel(picture, 49, 39)[2] + pixel(picture, 50, 40)[2] > 200, true);
+  const cv::Mat image = renderer().render(simple_view(), {item_of(cloud)}, {1, {0, 0, 0}, false});
+  EXPECT_EQ(pixel(image, 49, 39)[2] + pixel(image, 50, 40)[2] > 200, true);
   cv::Mat blue;
-  cv::extractChannel(picture, blue, 0);
+  cv::extractChannel(image, blue, 0);
   EXPECT_GE(cv::countNonZero(blue), 1);
   EXPECT_LE(cv::countNonZero(blue), 6);
 }
@@ -246,10 +246,10 @@ TEST_F(RendererTest, EdgesAreAntialiased) {
   const Mesh mesh{{{-1, 1, 2}, {1, 0.9, 2}, {1, -0.8, 2}}, {{0, 1, 2}}};
   const cv::Mat smooth = renderer().render(simple_view(), {item_of(mesh)});
   const cv::Mat hard = renderer().render(simple_view(), {item_of(mesh)}, {1, {1, 1, 1}, false});
-  const auto levels = [](const cv::Mat& picture) {
+  const auto levels = [](const cv::Mat& image) {
     std::set<int> found;
-    for (int y = 0; y < picture.rows; ++y)
-      for (int x = 0; x < picture.cols; ++x) found.insert(pixel(picture, x, y)[0]);
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x) found.insert(pixel(image, x, y)[0]);
     return found.size();
   };
   EXPECT_GE(levels(smooth), levels(hard) + 3);
@@ -286,7 +286,7 @@ TEST_F(RendererTest, SameBytesTwiceAndFromAnotherRenderer) {
   EXPECT_TRUE(same(first, renderer().render(simple_view(), items)));
 }
 
-TEST_F(RendererTest, FarFromTheOriginThePictureIsTheSame) {
+TEST_F(RendererTest, FarFromTheOriginTheImageIsTheSame) {
   const Vector3d far_away(1000, -500, 2000);
   const Mesh here = sphere(0.7, {0, 0, 2}, 24), there = sphere(0.7, far_away + Vector3d(0, 0, 2), 24);
   RenderView view = simple_view();

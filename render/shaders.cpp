@@ -31,7 +31,7 @@ constexpr char kFragmentHead[] = R"(#version 450 core
 centroid in vec3 camera_normal;
 centroid in vec3 camera_position;
 centroid in vec3 value;
-uniform sampler2D picture;
+uniform sampler2D image;
 uniform vec3 color;
 uniform float opacity;
 uniform float scalar_grey;
@@ -66,8 +66,8 @@ void main() {
 }
 )";
 
-constexpr char kTextured[] = "vec3 shade(bool front) { return lit(texture(picture, value.xy).rgb, front); }";
-constexpr char kUnlit[] = "vec3 shade(bool front) { return texture(picture, value.xy).rgb; }";
+constexpr char kTextured[] = "vec3 shade(bool front) { return lit(texture(image, value.xy).rgb, front); }";
+constexpr char kUnlit[] = "vec3 shade(bool front) { return texture(image, value.xy).rgb; }";
 constexpr char kShaded[] = "vec3 shade(bool front) { return lit(color, front); }";
 // x right, y up, z to the viewer as red, green, blue.
 constexpr char kNormals[] = R"(
@@ -88,14 +88,14 @@ vec3 shade(bool front) {
 constexpr char kScalar[] = R"(
 vec3 shade(bool front) {
   float row = (clamp(value.x, 0.0, 1.0) * 255.0 + 0.5) / 256.0;
-  vec3 srgb = value.y > 0.999 ? texture(picture, vec2(0.5, row)).rgb : vec3(scalar_grey);
+  vec3 srgb = value.y > 0.999 ? texture(image, vec2(0.5, row)).rgb : vec3(scalar_grey);
   float facing = abs(dot(normalize(camera_normal), normalize(camera_position)));
   return srgb * (0.7 + 0.3 * smoothstep(0.0, 0.8, facing)) * (front ? 1.0 : 0.7);
 })";
 constexpr char kScalarPoints[] = R"(
 vec3 shade(bool front) {
   float row = (clamp(value.x, 0.0, 1.0) * 255.0 + 0.5) / 256.0;
-  return value.y > 0.999 ? texture(picture, vec2(0.5, row)).rgb : vec3(scalar_grey);
+  return value.y > 0.999 ? texture(image, vec2(0.5, row)).rgb : vec3(scalar_grey);
 })";
 constexpr char kPoints[] = R"(
 vec3 shade(bool front) {

@@ -29,10 +29,10 @@ struct Boards {
 // All that the pipeline ever sees. On disk: scenes/README.md, "capture session".
 struct CaptureSession {
   std::string name, created_by, licence;
-  std::vector<std::string> sensors;          // the order of the views
-  std::optional<Calibration> calibration;    // absent where boards are to be used
+  std::vector<std::string> sensors;        // the order of the views
+  std::optional<Calibration> calibration;  // absent where boards are to be used
   std::map<std::string, Shot> naked, dressed;
-  std::map<std::string, DepthScan> scans;    // "scan_naked", "scan_user"
+  std::map<std::string, DepthScan> scans;  // "scan_naked", "scan_user"
   std::optional<RigPrior> prior;
   std::optional<Boards> boards;
 };

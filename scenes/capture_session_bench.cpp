@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A picture as noisy as a sensor's: PNG's speed depends on it.
-cv::Mat picture(int width, int height, int type, int sigma) {
+// An image as noisy as a sensor's: PNG's speed depends on it.
+cv::Mat image(int width, int height, int type, int sigma) {
   cv::Mat image(height, width, type), noise(height, width, CV_MAKETYPE(CV_16S, CV_MAT_CN(type)));
   cv::RNG generator(7);
   generator.fill(noise, cv::RNG::NORMAL, 0, sigma);
@@ -33,8 +33,7 @@ CaptureSession full_session() {
   CaptureSession session;
   session.name = "bench";
   session.calibration.emplace();
-  const Shot shot{
-      picture(1920, 1080, CV_8UC3, 2), picture(512, 424, CV_16UC1, 3), picture(512, 424, CV_16UC1, 30), {}, {}};
+  const Shot shot{image(1920, 1080, CV_8UC3, 2), image(512, 424, CV_16UC1, 3), image(512, 424, CV_16UC1, 30), {}, {}};
   for (const char* name : {"k1", "k2", "k3", "k4"}) {
     session.sensors.push_back(name);
     SensorCalibration sensor;

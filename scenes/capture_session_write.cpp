@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-struct PictureFile {
+struct ImageFile {
   fs::path path;
   const cv::Mat* image;
 };
@@ -63,7 +63,7 @@ void write_skeleton(const fs::path& file, const Skeleton& skeleton) {
   write_json(file, {{"joints", joints}});
 }
 
-void list_shots(const fs::path& folder, const std::map<std::string, Shot>& shots, std::vector<PictureFile>& files) {
+void list_shots(const fs::path& folder, const std::map<std::string, Shot>& shots, std::vector<ImageFile>& files) {
   for (const auto& [sensor, shot] : shots) {
     fs::create_directories(folder / sensor);
     if (!shot.color.empty()) files.push_back({folder / sensor / "color.png", &shot.color});
@@ -74,13 +74,13 @@ void list_shots(const fs::path& folder, const std::map<std::string, Shot>& shots
   }
 }
 
-void list_scan(const fs::path& folder, const DepthScan& scan, std::vector<PictureFile>& files) {
+void list_scan(const fs::path& folder, const DepthScan& scan, std::vector<ImageFile>& files) {
   fs::create_directories(folder);
   for (std::size_t i = 0; i < scan.depth_mm.size(); ++i)
     files.push_back({folder / session_layout::depth_frame(static_cast<int>(i)), &scan.depth_mm[i]});
 }
 
-void list_boards(const fs::path& folder, const Boards& boards, std::vector<PictureFile>& files) {
+void list_boards(const fs::path& folder, const Boards& boards, std::vector<ImageFile>& files) {
   for (const auto& [sensor, shots] : boards.shots) {
     fs::create_directories(folder / sensor);
     for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -102,7 +102,7 @@ void finish_session(NewFolder& folder, const CaptureSession& outline) {
 
 void write_capture_session(const fs::path& folder, const CaptureSession& session) {
   NewFolder writer(folder);
-  std::vector<PictureFile> files;
+  std::vector<ImageFile> files;
   list_shots(writer.temporary() / "naked", session.naked, files);
   list_shots(writer.temporary() / "dressed", session.dressed, files);
   for (const auto& [name, scan] : session.scans) list_scan(writer.temporary() / name, scan, files);

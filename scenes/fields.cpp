@@ -130,8 +130,8 @@ void FieldAssigner::operator()(const char* name, std::string& value, const std::
 void FieldAssigner::finish() const {
   for (const auto& [name, value] : values_)
     if (std::find(known_.begin(), known_.end(), name) == known_.end())
-      throw InputError(where_ + "." + name, "unknown parameter; known are " +
-                                                (known_.empty() ? std::string("none") : joined(known_)));
+      throw InputError(where_ + "." + name,
+                       "unknown parameter; known are " + (known_.empty() ? std::string("none") : joined(known_)));
 }
 
 }  // namespace dressform

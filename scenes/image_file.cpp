@@ -65,7 +65,7 @@ bool is_jpeg(const Bytes& bytes) {
   return bytes.size() >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
 }
 
-// Walks the chunks of a PNG. The decoder would print damage on the terminal and return half a picture.
+// Walks the chunks of a PNG. The decoder would print damage on the terminal and return half an image.
 void check_png(const std::filesystem::path& file, const Bytes& bytes, const ImageKind& kind) {
   const auto damaged = [&] { throw InputError(file.string(), "is damaged; expected a whole PNG"); };
   std::size_t at = 8;

@@ -26,7 +26,7 @@ struct Mesh {
 };
 
 // Mesh with one texture. Texture coordinates belong to triangle corners, so that the vertices stay joined across
-// seams. u to the right, v DOWN from the top left corner of the picture, both 0 to 1 (glTF's convention; OBJ's v is
+// seams. u to the right, v DOWN from the top left corner of the image, both 0 to 1 (glTF's convention; OBJ's v is
 // 1 - v). Texture: 8-bit BGR, sRGB.
 struct TexturedMesh {
   Mesh mesh;

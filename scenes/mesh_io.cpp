@@ -61,29 +61,29 @@ FileMesh read_checked(const std::filesystem::path& path) {
 }
 
 cv::Mat decode(const std::string& where, const std::string& bytes) {
-  cv::Mat picture;
+  cv::Mat image;
   if (!bytes.empty()) {
     const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    picture = cv::imdecode(raw, cv::IMREAD_COLOR);
+    image = cv::imdecode(raw, cv::IMREAD_COLOR);
   }
-  if (picture.empty()) throw InputError(where, "not a readable picture; expected a PNG or JPEG");
-  return picture;
+  if (image.empty()) throw InputError(where, "not a readable image; expected a PNG or JPEG");
+  return image;
 }
 
 cv::Mat read_texture(const std::filesystem::path& path, const FileMesh& file, const std::filesystem::path& texture) {
   if (!texture.empty()) return decode(texture.string(), read_file_bytes(texture));
-  const std::size_t count = file.pictures.size() + file.embedded_pictures.size();
+  const std::size_t count = file.images.size() + file.embedded_images.size();
   if (count == 0 && !file.missing_material_file.empty())
     throw InputError((path.parent_path() / file.missing_material_file).string(),
                      "found no such file; " + path.string() + " names it");
-  if (count != 1) throw InputError(path.string(), "names " + std::to_string(count) + " pictures; expected one texture");
-  if (!file.embedded_pictures.empty()) return decode(path.string() + " (picture inside)", file.embedded_pictures[0]);
-  return decode(file.pictures[0].string(), read_file_bytes(file.pictures[0]));
+  if (count != 1) throw InputError(path.string(), "names " + std::to_string(count) + " images; expected one texture");
+  if (!file.embedded_images.empty()) return decode(path.string() + " (image inside)", file.embedded_images[0]);
+  return decode(file.images[0].string(), read_file_bytes(file.images[0]));
 }
 
-// Whole repeats of the picture are taken off, triangle by triangle: what is left starts in [0, 1].
+// Whole repeats of the image are taken off, triangle by triangle: what is left starts in [0, 1].
 std::array<Vector2f, 3> unrepeated(std::array<Vector2f, 3> uv) {
-  constexpr float kTolerance = 1e-4f;  // rounding at the picture's edge is no repeat
+  constexpr float kTolerance = 1e-4f;  // rounding at the image's edge is no repeat
   for (int k = 0; k < 2; ++k) {
     const auto [low, high] = std::minmax({uv[0][k], uv[1][k], uv[2][k]});
     if (low >= -kTolerance && high <= 1 + kTolerance) continue;

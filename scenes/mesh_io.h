@@ -14,8 +14,8 @@ namespace dressform {
 // a coordinate that is not finite.
 Mesh read_mesh(const std::filesystem::path& path);
 
-// The same with texture coordinates and picture. `texture` names a PNG or JPEG and overrides the one the file names.
-// Throws InputError when the file has no texture coordinates or no picture can be found.
+// The same with texture coordinates and image. `texture` names a PNG or JPEG and overrides the one the file names.
+// Throws InputError when the file has no texture coordinates or no image can be found.
 TexturedMesh read_textured_mesh(const std::filesystem::path& path, const std::filesystem::path& texture = {});
 
 // What a PLY may carry beside vertices and triangles; empty members are left out.
@@ -23,8 +23,8 @@ struct PlyExtras {
   std::vector<Vector3d> normals;
   std::vector<Vector3f> colors;                                        // RGB 0-1, written as uchar
   std::map<std::string, std::vector<std::uint8_t>> vertex_properties;  // e.g. "views"
-  std::vector<std::array<Vector2f, 3>> corner_uv;                      // written as face `texcoord` lists, v UP (MeshLab)
-  std::string texture_file;                                            // comment TextureFile
+  std::vector<std::array<Vector2f, 3>> corner_uv;  // written as face `texcoord` lists, v UP (MeshLab)
+  std::string texture_file;                        // comment TextureFile
 };
 
 // Binary little-endian PLY, vertices as double. Written to a temporary name, then renamed.

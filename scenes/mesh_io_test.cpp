@@ -43,11 +43,11 @@ class MeshIo : public testing::Test {
 };
 
 // Red in its top left corner, green in its top right, otherwise blue.
-cv::Mat marked_picture() {
-  cv::Mat picture(8, 16, CV_8UC3, cv::Scalar(255, 0, 0));
-  picture(cv::Rect(0, 0, 4, 4)).setTo(cv::Scalar(0, 0, 255));
-  picture(cv::Rect(12, 0, 4, 4)).setTo(cv::Scalar(0, 255, 0));
-  return picture;
+cv::Mat marked_image() {
+  cv::Mat image(8, 16, CV_8UC3, cv::Scalar(255, 0, 0));
+  image(cv::Rect(0, 0, 4, 4)).setTo(cv::Scalar(0, 0, 255));
+  image(cv::Rect(12, 0, 4, 4)).setTo(cv::Scalar(0, 255, 0));
+  return image;
 }
 
 // A tube about y with one texture seam from rim to rim: u round it, v down it.
@@ -67,7 +67,7 @@ TexturedMesh tube(int around = 12, int rows = 4) {
       result.mesh.triangles.emplace_back(a, b + around, b);
       result.corner_uv.push_back({uv(row, i), uv(row + 1, i + 1), uv(row, i + 1)});
     }
-  result.texture = marked_picture();
+  result.texture = marked_image();
   return result;
 }
 
@@ -108,7 +108,7 @@ TEST_F(MeshIo, PlyKeepsDoublesPropertiesAndCorners) {
   extras.normals = vertex_normals(tube().mesh);
   extras.colors.assign(tube().mesh.vertices.size(), Vector3f(1, 0.5f, 0));
   extras.vertex_properties["views"].assign(tube().mesh.vertices.size(), 3);
-  cv::imwrite(file("cloth.png").string(), marked_picture());
+  cv::imwrite(file("cloth.png").string(), marked_image());
   write_ply(file("tube.ply"), tube().mesh, extras);
   expect_same(read_textured_mesh(file("tube.ply")), tube(), 0);
   EXPECT_EQ(read_ply_vertex_property(file("tube.ply"), "views"), extras.vertex_properties["views"]);
@@ -135,8 +135,8 @@ TEST_F(MeshIo, WritingLeavesNoTemporaryFilesAndTheSameBytes) {
   EXPECT_THROW(write_glb(file("no/such/folder/a.glb"), tube()), InputError);
 }
 
-TEST_F(MeshIo, ObjTopOfThePictureIsVOne) {
-  cv::imwrite(file("p.png").string(), marked_picture());
+TEST_F(MeshIo, ObjTopOfTheImageIsVOne) {
+  cv::imwrite(file("p.png").string(), marked_image());
   text("m.mtl", "newmtl a\nmap_Kd p.png\n");
   const auto path = text("a.obj",
                          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -199,7 +199,7 @@ TEST_F(MeshIo, PlySplitAtItsSeamIsJoined) {  // as Blender and MeshLab write it
     }
     faces += "3 " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + "\n";
   }
-  cv::imwrite(file("p.png").string(), marked_picture());
+  cv::imwrite(file("p.png").string(), marked_image());
   const auto path = text("a.ply", out + faces);
   const TexturedMesh found = read_textured_mesh(path, file("p.png"));
   EXPECT_EQ(topology(found.mesh).vertices, topology(expected.mesh).vertices);
@@ -263,7 +263,7 @@ TEST_F(MeshIo, MissingTexturesAreNamed) {
   };
   EXPECT_THAT(message(file("a.obj")), testing::HasSubstr("a.png"));
   EXPECT_THAT(message(file("a.obj"), file("b.png")), testing::HasSubstr("b.png"));
-  EXPECT_THAT(message(file("a.obj"), text("c.png", "no picture")), testing::HasSubstr("c.png"));
+  EXPECT_THAT(message(file("a.obj"), text("c.png", "no image")), testing::HasSubstr("c.png"));
   fs::remove(file("a.mtl"));
   EXPECT_THAT(message(file("a.obj")), testing::HasSubstr("a.mtl"));
   EXPECT_NO_THROW(read_mesh(file("a.obj")));
@@ -273,8 +273,8 @@ TEST_F(MeshIo, MissingTexturesAreNamed) {
               testing::HasSubstr("texture coordinates"));
 }
 
-TEST_F(MeshIo, RepeatedTexturesStartInsideThePicture) {
-  cv::imwrite(file("p.png").string(), marked_picture());
+TEST_F(MeshIo, RepeatedTexturesStartInsideTheImage) {
+  cv::imwrite(file("p.png").string(), marked_image());
   const auto path = text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 3 -2\nvt 3.5 -2\nvt 3 -1\nf 1/1 2/2 3/3\n");
   const auto uv = read_textured_mesh(path, file("p.png")).corner_uv[0];
   EXPECT_EQ(uv[0], Vector2f(0, 1));
@@ -296,7 +296,7 @@ TEST_F(MeshIo, CoincidentInnerVerticesStayApart) {  // two sheets that touch in 
         mesh.corner_uv.back()[k] = mesh.mesh.vertices[mesh.mesh.triangles.back()[k]].head<2>().cast<float>();
     }
   }
-  mesh.texture = marked_picture();
+  mesh.texture = marked_image();
   write_glb(file("a.glb"), mesh);
   EXPECT_EQ(topology(read_mesh(file("a.glb"))).components, 2);
 }

@@ -20,7 +20,7 @@ inline double normal(std::uint64_t seed, std::uint64_t stream, std::uint64_t ind
   return normal4(seed, stream, index)[0];
 }
 
-// Standard normal numbers in bulk, float, for noise on whole pictures: `blocks` blocks of `normal_block`, from the
+// Standard normal numbers in bulk, float, for noise on whole images: `blocks` blocks of `normal_block`, from the
 // block numbered `first_block` on. The numbers of normal4 at the indices of a block (a quarter as many as its numbers),
 // in another order, from 24 bits each.
 constexpr int normal_block = 256;

@@ -30,8 +30,8 @@ class Registry<Tag, Out(const In&...)> {
     std::vector<FieldInfo> fields;  // with defaults
     // Checks the values against the variant's fields (InputError), then runs it.
     std::function<Out(const In&..., const FieldValues&, Seed)> run;
-    // All parameters: the defaults overridden by `values`, in their own types. Throws InputError where a value is unknown,
-    // of the wrong type or out of range.
+    // All parameters: the defaults overridden by `values`, in their own types. Throws InputError where a value is
+    // unknown, of the wrong type or out of range.
     std::function<FieldValues(const FieldValues&)> complete;
   };
 

@@ -18,55 +18,55 @@ struct BodySpec {
   std::string sex = "male";    // proportions: "male" or "female"
   std::string sample;          // "man" or "woman": stature and girths are drawn from the survey; empty: as given
   int sample_seed = 1;         // which of the customers that can be drawn
-  double stature_m = 1.85, chest_m = 1.01, waist_m = 0.81, hip_m = 0.91;  // girths: tape (convex hull) round the body
+  double stature_m = 1.85, chest_m = 1.01, waist_m = 0.81, hip_m = 0.91;   // girths: tape (convex hull) round the body
   double inseam_m = 0, knee_height_m = 0, upper_arm_m = 0, forearm_m = 0;  // segments; 0: as usual with these girths
-  std::string pose = "mannequin";  // mannequin, a_pose, bent_arms
-  double arm_angle_deg = 0;    // upper arms out from the vertical; 0: the pose's own
+  std::string pose = "mannequin";                                          // mannequin, a_pose, bent_arms
+  double arm_angle_deg = 0;  // upper arms out from the vertical; 0: the pose's own
 };
 
 struct PrintSpec {
-  std::string kind = "plain";            // plain, stars, complex, stripes, denim, weave, ...
-  std::vector<std::string> colors;       // "#rrggbb": ground colour, then print colours
-  std::string text;                      // characters to print, for kinds that print text
+  std::string kind = "plain";       // plain, stars, complex, stripes, denim, weave, ...
+  std::vector<std::string> colors;  // "#rrggbb": ground colour, then print colours
+  std::string text;                 // characters to print, for kinds that print text
 };
 
 struct GarmentSpec {
-  std::string name;                      // for the report: "shirt 1"
-  std::string slot = "top";              // "top" or "bottom"
-  std::string kind = "shirt";            // shirt, trousers, skirt, dress
-  std::filesystem::path mesh, texture;   // someone's own garment, placed as given; empty: procedural
-  double sleeve = 0.45;                  // part of the arm from shoulder to wrist that is covered (shirts)
-  double length = 1.0;                   // trousers, skirts, dresses: part of the way from waist to ankle
-  double hem_below_waist_m = 0.20;       // shirts: how far the hem hangs below the waist
-  std::string neck = "round";            // shirts, dresses: round, v
-  double neck_depth_m = 0.10;            // of the neckline in front, below the neck's side; polo: of the slit
-  std::string collar = "none";           // shirts, dresses: none, polo, hood
-  bool tucked = false;                   // shirts: worn inside the trousers or skirt
-  double hem_slant = 0;                  // of the hem: rise per metre towards the front
-  double waist_offset_m = 0;             // trousers, skirts: how far above the natural waist they are worn
-  double ease_m = 0.06;                  // garment girth minus body girth, at chest (tops) or hip (bottoms)
-  double fullness = 0.06;                // cloth beyond the smooth shape, part of its width: it falls in folds
-  double flare = 0.3;                    // skirts, dresses: how much wider the hem is cut than it hangs
-  double bending_length_m = 0.018;       // a strip of the cloth bends by its own weight over this length (Peirce)
-  double cloth_edge_m = 0.0075;          // of the triangles that the cloth is made of
+  std::string name;                     // for the report: "shirt 1"
+  std::string slot = "top";             // "top" or "bottom"
+  std::string kind = "shirt";           // shirt, trousers, skirt, dress
+  std::filesystem::path mesh, texture;  // someone's own garment, placed as given; empty: procedural
+  double sleeve = 0.45;                 // part of the arm from shoulder to wrist that is covered (shirts)
+  double length = 1.0;                  // trousers, skirts, dresses: part of the way from waist to ankle
+  double hem_below_waist_m = 0.20;      // shirts: how far the hem hangs below the waist
+  std::string neck = "round";           // shirts, dresses: round, v
+  double neck_depth_m = 0.10;           // of the neckline in front, below the neck's side; polo: of the slit
+  std::string collar = "none";          // shirts, dresses: none, polo, hood
+  bool tucked = false;                  // shirts: worn inside the trousers or skirt
+  double hem_slant = 0;                 // of the hem: rise per metre towards the front
+  double waist_offset_m = 0;            // trousers, skirts: how far above the natural waist they are worn
+  double ease_m = 0.06;                 // garment girth minus body girth, at chest (tops) or hip (bottoms)
+  double fullness = 0.06;               // cloth beyond the smooth shape, part of its width: it falls in folds
+  double flare = 0.3;                   // skirts, dresses: how much wider the hem is cut than it hangs
+  double bending_length_m = 0.018;      // a strip of the cloth bends by its own weight over this length (Peirce)
+  double cloth_edge_m = 0.0075;         // of the triangles that the cloth is made of
   PrintSpec print;
 };
 
 struct SensorSpec {
-  std::string name;                      // "k1", ...
-  SensorCalibration calibration;         // the true one; see GivenCalibrationSpec for what the session says
+  std::string name;               // "k1", ...
+  SensorCalibration calibration;  // the true one; see GivenCalibrationSpec for what the session says
   Isometry3d world_from_sensor = Isometry3d::Identity();  // IR camera, true
-  bool body_tracking = false;            // the SDK tracks front and back views only
-  double exposure = 1.0;                 // linear gain of the colour camera against the scene's nominal exposure
-  double gain = 1.0;                     // amplification of the colour camera: brightens, and the noise with it
+  bool body_tracking = false;                             // the SDK tracks front and back views only
+  double exposure = 1.0;                      // linear gain of the colour camera against the scene's nominal exposure
+  double gain = 1.0;                          // amplification of the colour camera: brightens, and the noise with it
   Vector3d white_balance = Vector3d::Ones();  // linear gain per channel (RGB)
-  bool mosaic = true;                    // a Bayer filter before the colour camera's pixels
-  int jpeg_quality = 90;                 // of the colour stream; 0: uncompressed
+  bool mosaic = true;                         // a Bayer filter before the colour camera's pixels
+  int jpeg_quality = 90;                      // of the colour stream; 0: uncompressed
 };
 
 struct LightSpec {
   Vector3d position_m = Vector3d(0, 2.3, 2.0);
-  double radius_m = 0.05;                // of the bulb: makes the shadows soft
+  double radius_m = 0.05;  // of the bulb: makes the shadows soft
   Vector3d intensity_rgb = Vector3d::Ones();
 };
 
@@ -76,28 +76,28 @@ struct RoomSpec {
 };
 
 struct ScanSpec {
-  SensorCalibration calibration;         // the hand-held sensor (depth only)
+  SensorCalibration calibration;  // the hand-held sensor (depth only)
   int frames = 120;
   double radius_m = 1.9, height_m = 1.15;
 };
 
 struct PriorSpec {
-  double rotation_deg = 5.0;             // sigma of the rig prior's error, cut at twice that
+  double rotation_deg = 5.0;  // sigma of the rig prior's error, cut at twice that
   double translation_m = 0.08;
 };
 
 // Shots of a checkerboard before every sensor of the rig, to calibrate from. Made only where a scene has the table.
 struct BoardsSpec {
-  int squares_x = 12, squares_y = 20;    // of the printed pattern; its inner corners are one fewer each way
+  int squares_x = 12, squares_y = 20;  // of the printed pattern; its inner corners are one fewer each way
   double square_m = 0.028;
-  int views = 25;                        // poses per sensor
+  int views = 25;  // poses per sensor
   double nearest_m = 0.7, farthest_m = 1.6, tilt_deg = 40;
 };
 
 // How far the calibration that the session brings along is off the true one: sigmas, drawn for each sensor of the rig.
 struct GivenCalibrationSpec {
   double focal_percent = 0, principal_px = 0, rotation_deg = 0, translation_mm = 0, depth_offset_mm = 0;
-  bool distortion = true;                // false: it knows no distortion, like the thesis's tables
+  bool distortion = true;  // false: it knows no distortion, like the thesis's tables
 
   bool exact() const {
     return focal_percent == 0 && principal_px == 0 && rotation_deg == 0 && translation_mm == 0 &&
@@ -113,13 +113,13 @@ struct VariantChoice {
 
 struct Scene {
   std::string name;
-  std::filesystem::path file;            // where it was read; relative paths in it start at this file's folder
-  std::string toml;                      // the text as read, for provenance
+  std::filesystem::path file;  // where it was read; relative paths in it start at this file's folder
+  std::string toml;            // the text as read, for provenance
   std::string description;
   RoomSpec room;
   std::vector<LightSpec> lights;
   BodySpec body, user;
-  std::vector<GarmentSpec> garments;     // at most one per slot
+  std::vector<GarmentSpec> garments;  // at most one per slot
   std::vector<SensorSpec> rig;
   ScanSpec scan;
   PriorSpec prior;

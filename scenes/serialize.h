@@ -199,7 +199,7 @@ void CEREAL_LOAD_FUNCTION_NAME(dressform::ByteReader& reader, std::vector<T, A>&
   }
 }
 
-// Two-dimensional pictures of any depth and number of channels.
+// Two-dimensional images of any depth and number of channels.
 inline void CEREAL_SAVE_FUNCTION_NAME(dressform::ByteWriter& writer, const cv::Mat& image) {
   if (image.dims > 2) throw std::invalid_argument("to_bytes: an image of more than two dimensions");
   writer(image.type(), image.rows, image.cols);

@@ -19,13 +19,13 @@
 namespace dressform {
 namespace {
 
-// A seed of its own for each picture, so that no two share their noise.
+// A seed of its own for each image, so that no two share their noise.
 Seed derived(Seed seed, const std::string& what) {
   const auto numbers = uniform4(seed, stream_of(what.c_str()), 0);
   return static_cast<Seed>(numbers[0] * 0x1p31) << 32 | static_cast<Seed>(numbers[1] * 0x1p32);
 }
 
-// Counts finished pictures for the caller.
+// Counts finished images for the caller.
 class Meter {
  public:
   Meter(const SynthesisProgress& progress, int total) : progress_(progress), total_(total) {}
@@ -101,7 +101,7 @@ std::vector<Isometry3d> path_inside(const Scene& scene, const Body& body, Seed s
   return path;
 }
 
-int pictures_of(const Scene& scene) {
+int images_of(const Scene& scene) {
   const int sensors = static_cast<int>(scene.rig.size());
   return 2 * sensors + 2 * scene.scan.frames + (scene.boards ? sensors * scene.boards->views : 0);
 }
@@ -118,7 +118,7 @@ class Studio {
       : scene_(scene),
         seed_(seed),
         model_(SensorModel::at(scene.sensor_model.variant)),
-        meter_(progress, pictures_of(scene)),
+        meter_(progress, images_of(scene)),
         lighting_(make_lighting(scene.lights, scene.room)),
         exposure_(nominal_exposure(lighting_)) {
     model_.complete(scene.sensor_model.values);
@@ -164,8 +164,8 @@ class Studio {
     DepthScan result{"handheld", {}};
     for (std::size_t i = 0; i < path.size(); ++i) {
       const std::string frame = name + "/" + std::to_string(i);
-      const IrView view(world, rays, scene_.scan.calibration.ir, path[i], scene_.scan.calibration.depth_offset_m,
-                        false, stream_of("handheld"));
+      const IrView view(world, rays, scene_.scan.calibration.ir, path[i], scene_.scan.calibration.depth_offset_m, false,
+                        stream_of("handheld"));
       result.depth_mm.push_back(measure(view, derived(seed_, frame)).depth_mm);
       meter_.step(frame);
     }

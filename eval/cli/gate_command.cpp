@@ -4,8 +4,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/cli/commands.h"
+#include "eval/cli/end_to_end_progress.h"
 #include "eval/cli/options.h"
-#include "eval/cli/road_progress.h"
 #include "eval/gate/gate.h"
 #include "eval/gate/golden_run.h"
 
@@ -20,33 +20,31 @@ struct GateOptions : CommonOptions {
   std::string reason, scene;
 };
 
-void keep_pictures(const GoldenCase& reference, const GoldenRun& run, const fs::path& folder) {
+void keep_images(const GoldenCase& reference, const GoldenRun& run, const fs::path& folder) {
   fs::create_directories(folder);
-  for (const auto& [stem, picture] : run.pictures) {
-    const auto old = reference.pictures.find(stem);
-    if (old != reference.pictures.end())
-      cv::imwrite((folder / ("new_reference_difference_" + stem + ".png")).string(),
-                  flip_picture(picture, old->second));
+  for (const auto& [stem, image] : run.images) {
+    const auto old = reference.images.find(stem);
+    if (old != reference.images.end())
+      cv::imwrite((folder / ("new_reference_difference_" + stem + ".png")).string(), flip_image(image, old->second));
   }
 }
 
 ExitCode check_case(const std::string& name, const GateOptions& options, int threads, Progress& progress) {
   const GoldenCase reference = read_golden_case(options.golden, name);
   const GoldenRun run = run_golden_case(reference, options.golden, options.work, threads, scene_progress(progress));
-  const GateResult result = compare_with_golden(reference, run.scores, run.pictures);
+  const GateResult result = compare_with_golden(reference, run.scores, run.images);
   const fs::path kept = options.work / name / "gate";
   if (result.verdict == GateVerdict::pass) {
     fmt::print("{}: pass, {} compared\n", name, result.compared);
     return kSuccess;
   }
-  keep_pictures(reference, run, kept);
+  keep_images(reference, run, kept);
   const bool obsolete = result.verdict == GateVerdict::obsolete;
   fmt::print("{}: {}, {} of {}\n", name, obsolete ? "OBSOLETE reference" : "REGRESSION", result.findings.size(),
              result.compared);
   for (const auto& finding : result.findings) fmt::print("  {}: {}\n", finding.what, finding.message);
-  fmt::print(
-      "  pictures (new, reference, difference x 10): {}\n  to accept: dressform gate accept {} --reason \"...\"\n",
-      kept.string(), name);
+  fmt::print("  images (new, reference, difference x 10): {}\n  to accept: dressform gate accept {} --reason \"...\"\n",
+             kept.string(), name);
   return obsolete ? kBadGolden : kRegression;
 }
 
@@ -77,7 +75,7 @@ GoldenCase before(const std::string& name, const GateOptions& options) {
   try {
     return read_golden_case(options.golden, name);
   } catch (const GoldenError&) {
-    return read_golden_recipe(options.golden, name);  // damaged pictures: all of it is accepted anew
+    return read_golden_recipe(options.golden, name);  // damaged images: all of it is accepted anew
   }
 }
 
@@ -89,7 +87,7 @@ int accept(const GateOptions& options) {
       const GoldenCase reference = before(name, options);
       const GoldenRun run =
           run_golden_case(reference, options.golden, options.work, threads.count(), scene_progress(progress));
-      const GoldenCase next = accepted(reference, run.scores, run.pictures, options.reason);
+      const GoldenCase next = accepted(reference, run.scores, run.images, options.reason);
       write_golden_case(options.golden, next);
       fmt::print("{}: accepted; {}\n", name, next.history.back());
     }

@@ -47,7 +47,7 @@ int inspect(const InspectOptions& options) {
                                                        : inspect_sensor(options.sensor, sensor_values(options), report);
   write_inspection(inspection, output);
   const InspectionCount count = count_of(inspection);
-  progress.finish("inspect", fmt::format("{} pictures", count.pictures));
+  progress.finish("inspect", fmt::format("{} images", count.images));
   for (const auto& section : inspection.sections)
     for (const auto& finding : section.findings)
       fmt::print("  {:<44} {:>10.4g} {:<16}{}\n", finding.what, finding.shown(), finding.unit,
@@ -63,7 +63,7 @@ int inspect(const InspectOptions& options) {
 
 Command add_inspect_command(CLI::App& app) {
   auto options = std::make_shared<InspectOptions>();
-  auto* command = app.add_subcommand("inspect", "Pictures and noise statistics of a session or of a sensor model");
+  auto* command = app.add_subcommand("inspect", "Images and noise statistics of a session or of a sensor model");
   command->add_option("session", options->session, "capture session folder");
   command->add_option("--sensor", options->sensor, "instead of a session: a sensor model, on known planes")
       ->check(CLI::IsMember(SensorModel::names()));

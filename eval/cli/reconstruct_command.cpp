@@ -1,8 +1,8 @@
 #include <memory>
 
 #include "eval/cli/commands.h"
+#include "eval/cli/end_to_end_progress.h"
 #include "eval/cli/options.h"
-#include "eval/cli/road_progress.h"
 
 namespace dressform {
 namespace {
@@ -19,9 +19,9 @@ int reconstruct_session(ReconstructOptions options) {
   const std::string name = std::filesystem::absolute(options.session).lexically_normal().filename().string();
   if (options.output.empty()) options.output = std::filesystem::path("runs") / name;
   Progress progress(options.quiet);
-  RoadRunRequest request{options.session,        options.output, store_folder(options), name, variant_text(options),
-                         choices.reconstruction, true,           threads.count()};
-  print_summary(run_road(request, road_progress(progress)));
+  EndToEndRequest request{options.session,        options.output, store_folder(options), name, variant_text(options),
+                          choices.reconstruction, true,           threads.count()};
+  print_summary(run_end_to_end(request, end_to_end_progress(progress)));
   return kSuccess;
 }
 

@@ -5,7 +5,7 @@
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
-#include "pipeline/artifact_store.h"
+#include "pipeline/run/artifact_store.h"
 #include "render/renderer.h"
 #include "scenes/file_bytes.h"
 #include "scenes/mesh_io.h"
@@ -28,7 +28,7 @@ const std::map<std::string, Shading> kShadings = {{"textured", Shading::textured
 
 bool wants_texture(const std::string& shading) { return shading == "textured" || shading == "unlit"; }
 
-// Meshes that the items of a picture point into.
+// Meshes that the items of an image point into.
 struct LoadedMeshes {
   std::vector<std::unique_ptr<Mesh>> plain;
   std::vector<std::unique_ptr<TexturedMesh>> textured;
@@ -57,12 +57,12 @@ int render_meshes(const RenderOptionsCli& options) {
   LoadedMeshes loaded;
   for (const auto& file : options.meshes) loaded.load(file, options.shading);
   Renderer renderer;
-  const cv::Mat picture = options.layout == "four" ? four_views(renderer, loaded.items, options.height)
-                                                   : contact_sheet(renderer, loaded.items, 12, 6, options.height);
+  const cv::Mat image = options.layout == "four" ? four_views(renderer, loaded.items, options.height)
+                                                 : contact_sheet(renderer, loaded.items, 12, 6, options.height);
   std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
+  cv::imencode(".png", image, bytes);
   write_file_atomically(options.output, std::string(bytes.begin(), bytes.end()));
-  fmt::print("{} ({} x {})\n", options.output.string(), picture.cols, picture.rows);
+  fmt::print("{} ({} x {})\n", options.output.string(), image.cols, image.rows);
   return kSuccess;
 }
 
@@ -70,7 +70,7 @@ int render_meshes(const RenderOptionsCli& options) {
 
 Command add_render_command(CLI::App& app) {
   auto options = std::make_shared<RenderOptionsCli>();
-  auto* command = app.add_subcommand("render", "Pictures of meshes (OBJ, PLY, GLB), off screen");
+  auto* command = app.add_subcommand("render", "Images of meshes (OBJ, PLY, GLB), off screen");
   command->add_option("meshes", options->meshes, "mesh files, drawn together")->required();
   command->add_option("-o,--output", options->output, "PNG to write")->required();
   command->add_option("--shading", options->shading, "auto: textured where there is a texture, else shaded")

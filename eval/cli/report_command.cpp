@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "eval/cli/commands.h"
+#include "eval/cli/end_to_end_progress.h"
 #include "eval/cli/options.h"
-#include "eval/cli/road_progress.h"
 
 namespace dressform {
 namespace {
@@ -18,13 +18,13 @@ struct ReportOptions : CommonOptions {
 };
 
 // The request that made a run, from its run.json.
-RoadRunRequest recorded_request(const fs::path& run) {
+EndToEndRequest recorded_request(const fs::path& run) {
   const fs::path file = run / "run.json";
   std::ifstream in(file);
   if (!in) throw InputError(file.string(), "can't be read; expected the run.json of a run folder");
   try {
     json facts = json::parse(in);
-    RoadRunRequest request;
+    EndToEndRequest request;
     request.session = facts.at("session").at("path").get<std::string>();
     request.output = run;
     request.store = facts.at("store").get<std::string>();
@@ -44,11 +44,11 @@ RoadRunRequest recorded_request(const fs::path& run) {
 
 int report_run(const ReportOptions& options) {
   const ThreadLimit threads(options.threads);
-  RoadRunRequest request = recorded_request(options.run);
+  EndToEndRequest request = recorded_request(options.run);
   request.threads = threads.count();
   fs::remove(options.run / "report.html");  // so that it is written again
   Progress progress(options.quiet);
-  print_summary(run_road(request, road_progress(progress)));
+  print_summary(run_end_to_end(request, end_to_end_progress(progress)));
   return kSuccess;
 }
 
@@ -56,7 +56,7 @@ int report_run(const ReportOptions& options) {
 
 Command add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
-  auto* command = app.add_subcommand("report", "Write a run's report and pictures again");
+  auto* command = app.add_subcommand("report", "Write a run's report and images again");
   command->add_option("run", options->run, "run folder")->required();
   add_threads(*command, *options);
   command->footer("Example:\n  dressform report runs/group1");

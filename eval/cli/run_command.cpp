@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "eval/cli/commands.h"
+#include "eval/cli/end_to_end_progress.h"
 #include "eval/cli/options.h"
-#include "eval/cli/road_progress.h"
 
 namespace dressform {
 namespace {
@@ -28,7 +28,7 @@ int run_scene_file(RunOptions options) {
 
 Command add_run_command(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("run", "The whole road: capture a scene, reconstruct, score, report");
+  auto* command = app.add_subcommand("run", "The whole pipeline: capture a scene, reconstruct, score, report");
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   add_output(*command, *options, "run folder; default runs/<scene>");
   add_scene_options(*command, *options);

@@ -8,7 +8,7 @@
 #include "eval/cli/options.h"
 #include "eval/evaluate.h"
 #include "eval/report/score_table.h"
-#include "pipeline/artifact_store.h"
+#include "pipeline/run/artifact_store.h"
 #include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
 

@@ -9,9 +9,9 @@
 namespace dressform {
 namespace {
 
-// Mean absolute difference in 8-bit levels that pictures may show: anti-aliased edges and dithering of texture
+// Mean absolute difference in 8-bit levels that images may show: anti-aliased edges and dithering of texture
 // filtering differ between instruction sets, surfaces do not.
-constexpr double kPictureTolerance = 1.0;
+constexpr double kImageTolerance = 1.0;
 
 bool within(const GoldenScore& golden, const ScoreRow& now) {
   if (golden.row.status != now.status) return false;
@@ -20,7 +20,7 @@ bool within(const GoldenScore& golden, const ScoreRow& now) {
   return std::abs(golden.row.value - now.value) <= golden.tolerance;
 }
 
-double picture_difference(const cv::Mat& a, const cv::Mat& b) {
+double image_difference(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != b.type()) return 255;
   cv::Mat difference;
   cv::absdiff(a, b, difference);
@@ -44,22 +44,22 @@ void compare_scores(const GoldenCase& golden, const Scores& scores, GateResult& 
   }
 }
 
-void compare_pictures(const GoldenCase& golden, const std::map<std::string, cv::Mat>& pictures, GateResult& result) {
-  for (const auto& [stem, reference] : golden.pictures) {
+void compare_images(const GoldenCase& golden, const std::map<std::string, cv::Mat>& images, GateResult& result) {
+  for (const auto& [stem, reference] : golden.images) {
     ++result.compared;
-    const auto now = pictures.find(stem);
-    if (now == pictures.end()) {
-      result.findings.push_back({"picture " + stem, "no longer made"});
+    const auto now = images.find(stem);
+    if (now == images.end()) {
+      result.findings.push_back({"image " + stem, "no longer made"});
       continue;
     }
-    const double difference = picture_difference(reference, now->second);
-    if (difference > kPictureTolerance)
-      result.findings.push_back({"picture " + stem, fmt::format("mean difference {:.2f} levels, tolerance {:.2f}",
-                                                                difference, kPictureTolerance)});
+    const double difference = image_difference(reference, now->second);
+    if (difference > kImageTolerance)
+      result.findings.push_back({"image " + stem, fmt::format("mean difference {:.2f} levels, tolerance {:.2f}",
+                                                              difference, kImageTolerance)});
   }
 }
 
-void find_unknown(const GoldenCase& golden, const Scores& scores, const std::map<std::string, cv::Mat>& pictures,
+void find_unknown(const GoldenCase& golden, const Scores& scores, const std::map<std::string, cv::Mat>& images,
                   GateResult& result) {
   for (const auto& row : scores.rows) {
     const auto same = [&](const GoldenScore& each) {
@@ -70,9 +70,9 @@ void find_unknown(const GoldenCase& golden, const Scores& scores, const std::map
       result.verdict = GateVerdict::obsolete;
     }
   }
-  for (const auto& [stem, picture] : pictures)
-    if (!golden.pictures.count(stem)) {
-      result.findings.push_back({"picture " + stem, "not in the reference: obsolete"});
+  for (const auto& [stem, image] : images)
+    if (!golden.images.count(stem)) {
+      result.findings.push_back({"image " + stem, "not in the reference: obsolete"});
       result.verdict = GateVerdict::obsolete;
     }
 }
@@ -80,12 +80,12 @@ void find_unknown(const GoldenCase& golden, const Scores& scores, const std::map
 }  // namespace
 
 GateResult compare_with_golden(const GoldenCase& golden, const Scores& scores,
-                               const std::map<std::string, cv::Mat>& pictures) {
+                               const std::map<std::string, cv::Mat>& images) {
   GateResult result;
   compare_scores(golden, scores, result);
-  compare_pictures(golden, pictures, result);
+  compare_images(golden, images, result);
   if (!result.findings.empty()) result.verdict = GateVerdict::regression;
-  if (result.verdict == GateVerdict::pass) find_unknown(golden, scores, pictures, result);
+  if (result.verdict == GateVerdict::pass) find_unknown(golden, scores, images, result);
   return result;
 }
 
@@ -98,7 +98,7 @@ double nuisance_tolerance(const ScoreRow& row) {
   return 0.01;
 }
 
-GoldenCase accepted(const GoldenCase& golden, const Scores& scores, const std::map<std::string, cv::Mat>& pictures,
+GoldenCase accepted(const GoldenCase& golden, const Scores& scores, const std::map<std::string, cv::Mat>& images,
                     const std::string& reason) {
   GoldenCase result = golden;
   result.scores.clear();
@@ -116,18 +116,18 @@ GoldenCase accepted(const GoldenCase& golden, const Scores& scores, const std::m
     if (old != golden.scores.end())
       changes += fmt::format("; {} {}: {:.6g} -> {:.6g}", row.stage, row.metric, old->row.value, row.value);
   }
-  for (const auto& [stem, picture] : pictures) {
-    const auto old = golden.pictures.find(stem);
-    if (old == golden.pictures.end() || picture_difference(old->second, picture) > kPictureTolerance)
-      result.pictures[stem] = picture;
+  for (const auto& [stem, image] : images) {
+    const auto old = golden.images.find(stem);
+    if (old == golden.images.end() || image_difference(old->second, image) > kImageTolerance)
+      result.images[stem] = image;
   }
-  for (auto it = result.pictures.begin(); it != result.pictures.end();)
-    it = pictures.count(it->first) ? std::next(it) : result.pictures.erase(it);
+  for (auto it = result.images.begin(); it != result.images.end();)
+    it = images.count(it->first) ? std::next(it) : result.images.erase(it);
   result.history.push_back(reason + changes);
   return result;
 }
 
-cv::Mat flip_picture(const cv::Mat& now, const cv::Mat& reference) {
+cv::Mat flip_image(const cv::Mat& now, const cv::Mat& reference) {
   if (now.size() != reference.size()) return now;
   cv::Mat difference, row;
   cv::absdiff(now, reference, difference);

@@ -20,7 +20,7 @@ Scores some_scores() {
   return scores;
 }
 
-std::map<std::string, cv::Mat> some_pictures(int level = 100) {
+std::map<std::string, cv::Mat> some_images(int level = 100) {
   return {{"result", cv::Mat(20, 30, CV_8UC3, cv::Scalar::all(level))}};
 }
 
@@ -28,7 +28,7 @@ GoldenCase some_case() {
   GoldenCase empty;
   empty.name = "group1";
   empty.scene = "scenes/library/group1.toml";
-  return accepted(empty, some_scores(), some_pictures(), "first");
+  return accepted(empty, some_scores(), some_images(), "first");
 }
 
 class GateFiles : public testing::Test {
@@ -43,7 +43,7 @@ class GateFiles : public testing::Test {
 };
 
 TEST(Gate, TheSameRunPasses) {
-  const auto result = compare_with_golden(some_case(), some_scores(), some_pictures());
+  const auto result = compare_with_golden(some_case(), some_scores(), some_images());
   EXPECT_EQ(result.verdict, GateVerdict::pass);
   EXPECT_EQ(result.compared, 5);
 }
@@ -52,34 +52,34 @@ TEST(Gate, ANumberBeyondItsToleranceIsARegression) {
   for (std::size_t i = 0; i < 3; ++i) {
     auto scores = some_scores();
     scores.rows[i].value += 1.5 * nuisance_tolerance(scores.rows[i]) + 1e-9;
-    const auto result = compare_with_golden(some_case(), scores, some_pictures());
+    const auto result = compare_with_golden(some_case(), scores, some_images());
     EXPECT_EQ(result.verdict, GateVerdict::regression) << i;
     EXPECT_EQ(result.findings.size(), 1u);
   }
 }
 
-TEST(Gate, MissingNumbersOtherStatusAndOtherPicturesAreRegressions) {
+TEST(Gate, MissingNumbersOtherStatusAndOtherImagesAreRegressions) {
   auto fewer = some_scores();
   fewer.rows.pop_back();
-  EXPECT_EQ(compare_with_golden(some_case(), fewer, some_pictures()).verdict, GateVerdict::regression);
+  EXPECT_EQ(compare_with_golden(some_case(), fewer, some_images()).verdict, GateVerdict::regression);
   auto failed = some_scores();
   failed.rows[1].status = "failed";
-  EXPECT_EQ(compare_with_golden(some_case(), failed, some_pictures()).verdict, GateVerdict::regression);
-  EXPECT_EQ(compare_with_golden(some_case(), some_scores(), some_pictures(103)).verdict, GateVerdict::regression);
+  EXPECT_EQ(compare_with_golden(some_case(), failed, some_images()).verdict, GateVerdict::regression);
+  EXPECT_EQ(compare_with_golden(some_case(), some_scores(), some_images(103)).verdict, GateVerdict::regression);
   EXPECT_EQ(compare_with_golden(some_case(), some_scores(), {}).verdict, GateVerdict::regression);
 }
 
 TEST(Gate, NumbersThatTheReferenceDoesNotKnowMakeItObsolete) {
   auto more = some_scores();
   more.rows.push_back({"fit", "new@1", "mm", 1, "ok", 1});
-  EXPECT_EQ(compare_with_golden(some_case(), more, some_pictures()).verdict, GateVerdict::obsolete);
+  EXPECT_EQ(compare_with_golden(some_case(), more, some_images()).verdict, GateVerdict::obsolete);
 }
 
 TEST(Gate, AcceptTouchesOnlyWhatIsBeyondTolerance) {
   auto scores = some_scores();
   scores.rows[0].value += 0.1 * nuisance_tolerance(scores.rows[0]);  // would creep, were it accepted
   scores.rows[1].value = 0.5;
-  const auto next = accepted(some_case(), scores, some_pictures(), "worse on purpose");
+  const auto next = accepted(some_case(), scores, some_images(), "worse on purpose");
   EXPECT_EQ(next.scores[0].row.value, 0.2);
   EXPECT_EQ(next.scores[1].row.value, 0.5);
   ASSERT_EQ(next.history.size(), 2u);
@@ -89,7 +89,7 @@ TEST(Gate, AcceptTouchesOnlyWhatIsBeyondTolerance) {
 TEST_F(GateFiles, RoundTrip) {
   write_golden_case(golden_, some_case());
   const auto read = read_golden_case(golden_, "group1");
-  EXPECT_EQ(compare_with_golden(read, some_scores(), some_pictures()).verdict, GateVerdict::pass);
+  EXPECT_EQ(compare_with_golden(read, some_scores(), some_images()).verdict, GateVerdict::pass);
   EXPECT_EQ(golden_case_names(golden_), std::vector<std::string>{"group1"});
 }
 
@@ -107,7 +107,7 @@ TEST_F(GateFiles, MissingEmptyAndCorruptReferencesFail) {
   fs::remove(golden_ / "group1/result.png");
   EXPECT_THROW(read_golden_case(golden_, "group1"), GoldenError);
   auto other = some_case();
-  other.pictures = some_pictures(7);
+  other.images = some_images(7);
   write_golden_case(golden_, some_case());
   const auto bytes = fs::file_size(golden_ / "group1/result.png");
   fs::resize_file(golden_ / "group1/result.png", bytes / 2);

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "pipeline/artifact_store.h"
+#include "pipeline/run/artifact_store.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"
 
@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string pixel_hash(const cv::Mat& picture) {
-  const cv::Mat whole = picture.isContinuous() ? picture : picture.clone();
+std::string pixel_hash(const cv::Mat& image) {
+  const cv::Mat whole = image.isContinuous() ? image : image.clone();
   return hash_hex({reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize()});
 }
 
@@ -55,11 +55,11 @@ GoldenScore score_from(const json& row) {
   return score;
 }
 
-cv::Mat picture_from(const fs::path& file, const std::string& hash) {
-  const cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (picture.empty()) throw GoldenError(file.string() + ": missing or no picture; expected an accepted one");
-  if (pixel_hash(picture) != hash) throw GoldenError(file.string() + ": corrupt; its pixels are not the accepted ones");
-  return picture;
+cv::Mat image_from(const fs::path& file, const std::string& hash) {
+  const cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
+  if (image.empty()) throw GoldenError(file.string() + ": missing or no image; expected an accepted one");
+  if (pixel_hash(image) != hash) throw GoldenError(file.string() + ": corrupt; its pixels are not the accepted ones");
+  return image;
 }
 
 // Runs `read` and turns a JSON complaint into a GoldenError that names the file.
@@ -84,17 +84,17 @@ GoldenCase read_golden_case(const fs::path& golden, const std::string& name) {
     for (const auto& row : text.at("scores")) result.scores.push_back(score_from(row));
     if (result.scores.empty())
       throw GoldenError((golden / name / "golden.json").string() + ": empty; expected accepted scores");
-    if (text.at("pictures").empty())
-      throw GoldenError((golden / name / "golden.json").string() + ": empty; expected accepted pictures");
-    for (const auto& [stem, hash] : text.at("pictures").items())
-      result.pictures[stem] = picture_from(golden / name / (stem + ".png"), hash);
+    if (text.at("images").empty())
+      throw GoldenError((golden / name / "golden.json").string() + ": empty; expected accepted images");
+    for (const auto& [stem, hash] : text.at("images").items())
+      result.images[stem] = image_from(golden / name / (stem + ".png"), hash);
     return result;
   });
 }
 
 void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
   fs::create_directories(golden / golden_case.name);
-  json scores = json::array(), pictures = json::object();
+  json scores = json::array(), images = json::object();
   for (const auto& score : golden_case.scores)
     scores.push_back({{"stage", score.row.stage},
                       {"metric", score.row.metric},
@@ -102,11 +102,11 @@ void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
                       {"value", std::isfinite(score.row.value) ? json(score.row.value) : json()},
                       {"status", score.row.status},
                       {"tolerance", score.tolerance}});
-  for (const auto& [stem, picture] : golden_case.pictures) {
+  for (const auto& [stem, image] : golden_case.images) {
     std::vector<unsigned char> bytes;
-    cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
+    cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
     write_file_atomically(golden / golden_case.name / (stem + ".png"), std::string(bytes.begin(), bytes.end()));
-    pictures[stem] = pixel_hash(picture);
+    images[stem] = pixel_hash(image);
   }
   const json text = {{"format", "dressform-golden"},
                      {"version", 1},
@@ -115,7 +115,7 @@ void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
                      {"seed", golden_case.seed},
                      {"history", golden_case.history},
                      {"scores", scores},
-                     {"pictures", pictures}};
+                     {"images", images}};
   write_file_atomically(golden / golden_case.name / "golden.json", text.dump(1) + "\n");
 }
 

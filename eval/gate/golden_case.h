@@ -23,15 +23,15 @@ struct GoldenScore {
   double tolerance = 0;
 };
 
-// golden/<name>/: golden.json and small pictures.
+// golden/<name>/: golden.json and small images.
 struct GoldenCase {
   std::string name;
   std::string scene;  // scene file, relative to the folder that holds golden/
   double scale = 1;
   Seed seed = 1;
   std::vector<GoldenScore> scores;
-  std::map<std::string, cv::Mat> pictures;  // file stem -> 8-bit BGR
-  std::vector<std::string> history;         // why each accept was made, oldest first
+  std::map<std::string, cv::Mat> images;  // file stem -> 8-bit BGR
+  std::vector<std::string> history;       // why each accept was made, oldest first
 };
 
 // How a case is to be run; read even where nothing has been accepted yet. Throws GoldenError naming the file.

@@ -8,13 +8,13 @@
 namespace dressform {
 namespace {
 
-constexpr int kPictureHeight = 220;
+constexpr int kImageHeight = 220;
 
-cv::Mat small_picture(const std::filesystem::path& file) {
-  const cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (picture.empty()) throw std::runtime_error(file.string() + ": the run made no such picture");
+cv::Mat small_image(const std::filesystem::path& file) {
+  const cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
+  if (image.empty()) throw std::runtime_error(file.string() + ": the run made no such image");
   cv::Mat result;
-  cv::resize(picture, result, {picture.cols * kPictureHeight / picture.rows, kPictureHeight}, 0, 0, cv::INTER_AREA);
+  cv::resize(image, result, {image.cols * kImageHeight / image.rows, kImageHeight}, 0, 0, cv::INTER_AREA);
   return result;
 }
 
@@ -34,7 +34,7 @@ GoldenRun run_golden_case(const GoldenCase& golden_case, const std::filesystem::
   const auto result = run_scene(request, progress);
   GoldenRun run{result.scores.value(), {}};
   for (const char* name : {"result_mannequin", "result_user"})
-    run.pictures[name] = small_picture(request.output / "renders" / (std::string(name) + ".png"));
+    run.images[name] = small_image(request.output / "renders" / (std::string(name) + ".png"));
   return run;
 }
 

@@ -9,10 +9,10 @@
 
 namespace dressform {
 
-// What the gate looks at in a run: its scores, and its result pictures made small.
+// What the gate looks at in a run: its scores, and its result images made small.
 struct GoldenRun {
   Scores scores;
-  std::map<std::string, cv::Mat> pictures;
+  std::map<std::string, cv::Mat> images;
 };
 
 // Runs a case in `work`/<name> (the store is shared by all cases below `work`).

@@ -99,27 +99,27 @@ void SvgCanvas::text(const Eigen::Vector2d& at, const std::string& text, double 
                       at.x(), at.y(), size, anchors[anchor], turn, html_escaped(text));
 }
 
-PictureCanvas::PictureCanvas(int width, int height)
+ImageCanvas::ImageCanvas(int width, int height)
     : large_(static_cast<int>(kLarge * height), static_cast<int>(kLarge * width), CV_8UC3, cv::Scalar::all(255)) {}
 
-void PictureCanvas::polyline(const Points& points, const Ink& ink, double width, bool dashed) {
+void ImageCanvas::polyline(const Points& points, const Ink& ink, double width, bool dashed) {
   for (const auto& piece : dashed ? dashes(points) : std::vector<Points>{points})
     cv::polylines(large_, fixed_points(piece), false, bgr(ink),
                   std::max(1, static_cast<int>(std::lround(kLarge * width))), cv::LINE_AA, kShift);
 }
 
-void PictureCanvas::polygon(const Points& points, const Ink& ink) {
+void ImageCanvas::polygon(const Points& points, const Ink& ink) {
   cv::Mat filled = large_.clone();
   cv::fillPoly(filled, std::vector<std::vector<cv::Point>>{fixed_points(points)}, bgr(ink), cv::LINE_AA, kShift);
   cv::addWeighted(filled, ink.opacity, large_, 1 - ink.opacity, 0, large_);
 }
 
-void PictureCanvas::dot(const Eigen::Vector2d& centre, double radius, const Ink& ink) {
+void ImageCanvas::dot(const Eigen::Vector2d& centre, double radius, const Ink& ink) {
   cv::circle(large_, fixed_point(centre), static_cast<int>(std::lround(radius * kLarge * (1 << kShift))), bgr(ink),
              cv::FILLED, cv::LINE_AA, kShift);
 }
 
-void PictureCanvas::text(const Eigen::Vector2d& at, const std::string& text, double size, Anchor anchor, bool upward) {
+void ImageCanvas::text(const Eigen::Vector2d& at, const std::string& text, double size, Anchor anchor, bool upward) {
   const std::string letters = plain(text);
   const double scale = kLarge * size / 31;  // the font's letters are 22 high at scale 1
   const int thickness = std::max(1, static_cast<int>(std::lround(0.08 * kLarge * size)));
@@ -141,7 +141,7 @@ void PictureCanvas::text(const Eigen::Vector2d& at, const std::string& text, dou
   if (!inside.empty()) turned(inside - place.tl()).copyTo(large_(inside));
 }
 
-cv::Mat PictureCanvas::picture() const {
+cv::Mat ImageCanvas::image() const {
   cv::Mat result;
   cv::resize(large_, result, {}, 0.5, 0.5, cv::INTER_AREA);
   return result;

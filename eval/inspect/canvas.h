@@ -40,14 +40,14 @@ class SvgCanvas : public Canvas {
 };
 
 // Drawn at four times the size and reduced to twice.
-class PictureCanvas : public Canvas {
+class ImageCanvas : public Canvas {
  public:
-  PictureCanvas(int width, int height);
+  ImageCanvas(int width, int height);
   void polyline(const Points& points, const Ink& ink, double width, bool dashed) override;
   void polygon(const Points& points, const Ink& ink) override;
   void dot(const Eigen::Vector2d& centre, double radius, const Ink& ink) override;
   void text(const Eigen::Vector2d& at, const std::string& text, double size, Anchor anchor, bool upward) override;
-  cv::Mat picture() const;
+  cv::Mat image() const;
 
  private:
   cv::Mat large_;

@@ -182,10 +182,10 @@ std::string chart_svg(const Chart& chart) {
   return canvas.svg();
 }
 
-cv::Mat chart_picture(const Chart& chart) {
-  PictureCanvas canvas(kWidth, kHeight);
+cv::Mat chart_image(const Chart& chart) {
+  ImageCanvas canvas(kWidth, kHeight);
   ChartPainter(chart, canvas).paint();
-  return canvas.picture();
+  return canvas.image();
 }
 
 Axis axis_around(const Chart& chart, const std::string& label) {

@@ -6,7 +6,7 @@
 
 namespace dressform {
 
-// A chart as it is meant; drawn as SVG and as a picture. Text may hold the letters σ, θ, ±, °, ² and ≤.
+// A chart as it is meant; drawn as SVG and as an image. Text may hold the letters σ, θ, ±, °, ² and ≤.
 struct Axis {
   std::string label;  // with its unit
   double minimum = 0, maximum = 1;
@@ -53,7 +53,7 @@ struct Chart {
 
 std::string chart_svg(const Chart& chart);
 // 8-bit BGR, twice as many pixels as the SVG has units.
-cv::Mat chart_picture(const Chart& chart);
+cv::Mat chart_image(const Chart& chart);
 
 // An axis from 0 (or below, where there are such values) that holds all of the chart's curves, bands and marks.
 Axis axis_around(const Chart& chart, const std::string& label);

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "eval/inspect/session_images.h"
 #include "eval/inspect/session_noise.h"
-#include "eval/inspect/session_pictures.h"
 #include "eval/inspect/session_points.h"
 
 namespace dressform {

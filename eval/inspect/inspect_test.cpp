@@ -147,12 +147,12 @@ TEST(Charts, SvgHoldsWhatWasMeantAndNothingLeavesTheBox) {
   EXPECT_THAT(svg, testing::EndsWith("</svg>"));
 }
 
-TEST(Charts, PictureIsTwiceAsLargeAndColoured) {
-  const cv::Mat picture = chart_picture(some_chart());
-  EXPECT_EQ(picture.size(), cv::Size(1440, 800));
-  EXPECT_EQ(picture.type(), CV_8UC3);
+TEST(Charts, ImageIsTwiceAsLargeAndColoured) {
+  const cv::Mat image = chart_image(some_chart());
+  EXPECT_EQ(image.size(), cv::Size(1440, 800));
+  EXPECT_EQ(image.type(), CV_8UC3);
   // The line at y = 10 lies in the middle of the logarithmic axis, in blue.
-  const cv::Vec3b line = picture.at<cv::Vec3b>(2 * (36 + 344) / 2, 2 * 100);
+  const cv::Vec3b line = image.at<cv::Vec3b>(2 * (36 + 344) / 2, 2 * 100);
   EXPECT_GT(line[0], line[2] + 80);
 }
 

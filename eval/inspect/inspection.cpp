@@ -98,7 +98,7 @@ Finding within(const std::string& what, const std::string& unit, double measured
 InspectionCount count_of(const Inspection& inspection) {
   InspectionCount count;
   for (const auto& section : inspection.sections) {
-    count.pictures += static_cast<int>(section.figures.size() + section.charts.size());
+    count.images += static_cast<int>(section.figures.size() + section.charts.size());
     for (const auto& finding : section.findings)
       if (finding.judged()) ++count.judged, count.good += finding.good();
   }
@@ -110,10 +110,10 @@ void write_inspection(const Inspection& inspection, const fs::path& folder) {
   std::vector<std::function<void()>> jobs;
   for (const auto& section : inspection.sections) {
     for (const auto& figure : section.figures)
-      jobs.push_back([&] { write_png(writer.temporary() / (figure.name + ".png"), figure.picture); });
+      jobs.push_back([&] { write_png(writer.temporary() / (figure.name + ".png"), figure.image); });
     for (const auto& chart : section.charts)
       jobs.push_back([&] {
-        write_png(writer.temporary() / (chart.name + ".png"), chart_picture(chart));
+        write_png(writer.temporary() / (chart.name + ".png"), chart_image(chart));
         write_file_atomically(writer.temporary() / (chart.name + ".svg"), chart_svg(chart));
       });
   }

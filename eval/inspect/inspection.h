@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "eval/inspect/chart.h"
-#include "eval/report/picture_tools.h"
+#include "eval/report/image_tools.h"
 
 namespace dressform {
 
@@ -41,7 +41,7 @@ struct Inspection {
 };
 
 struct InspectionCount {
-  int judged = 0, good = 0, pictures = 0;
+  int judged = 0, good = 0, images = 0;
 };
 InspectionCount count_of(const Inspection& inspection);
 

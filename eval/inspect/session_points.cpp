@@ -80,7 +80,7 @@ PointCloud middle_of(const PointCloud& cloud) {
   return result;
 }
 
-// Without the farthest fiftieth on every side, which stray points would fill the picture with.
+// Without the farthest fiftieth on every side, which stray points would fill the image with.
 Eigen::AlignedBox3d box_of(const PointCloud& cloud, const std::vector<Mesh>& frusta) {
   Eigen::AlignedBox3d box;
   for (int axis = 0; axis < 3; ++axis) {

@@ -28,16 +28,16 @@ const std::array<double, 256>& linear_table() {
   return table;
 }
 
-cv::Mat luma(const cv::Mat& picture) {
-  if (picture.channels() == 1) {
+cv::Mat luma(const cv::Mat& image) {
+  if (image.channels() == 1) {
     cv::Mat grey;
-    picture.convertTo(grey, CV_64F);
+    image.convertTo(grey, CV_64F);
     return grey;
   }
-  cv::Mat grey(picture.size(), CV_64F);
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x) {
-      const auto& c = picture.at<cv::Vec3b>(y, x);
+  cv::Mat grey(image.size(), CV_64F);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const auto& c = image.at<cv::Vec3b>(y, x);
       grey.at<double>(y, x) = 0.299 * c[2] + 0.587 * c[1] + 0.114 * c[0];
     }
   return grey;
@@ -164,13 +164,13 @@ cv::Vec3d gain_to_match(const std::vector<cv::Mat>& estimates, const std::vector
   return gain;
 }
 
-cv::Mat with_gain(const cv::Mat& picture, const cv::Vec3d& gain) {
+cv::Mat with_gain(const cv::Mat& image, const cv::Vec3d& gain) {
   cv::Mat table(1, 256, CV_8UC3), result;
   for (int i = 0; i < 256; ++i)
     for (int c = 0; c < 3; ++c)
       table.at<cv::Vec3b>(0, i)[c] =
           cv::saturate_cast<unsigned char>(255 * srgb_of(std::min(1.0, linear_table()[i] * gain[c])));
-  cv::LUT(picture, table, result);
+  cv::LUT(image, table, result);
   return result;
 }
 

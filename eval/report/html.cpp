@@ -90,7 +90,7 @@ void HtmlPage::table(const std::vector<std::string>& columns, const std::vector<
 
 void HtmlPage::figure(const Figure& figure) {
   std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", figure.picture, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
+  cv::imencode(".jpg", figure.image, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
   body_ += fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption><b>{0}.</b> {2}</figcaption></figure>\n",
       html_escaped(figure.title), base64(bytes), html_escaped(figure.caption));

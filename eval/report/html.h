@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "eval/report/picture_tools.h"
+#include "eval/report/image_tools.h"
 
 namespace dressform {
 
-// One self-contained HTML page: styles and pictures inside, nothing fetched. Parts appear in the order they are added.
+// One self-contained HTML page: styles and images inside, nothing fetched. Parts appear in the order they are added.
 class HtmlPage {
  public:
   explicit HtmlPage(std::string title) : title_(std::move(title)) {}

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
-#include "eval/report/error_pictures.h"
+#include "eval/report/error_images.h"
 #include "eval/report/html.h"
 #include "eval/report/score_table.h"
-#include "eval/report/stage_pictures.h"
-#include "pipeline/artifact_store.h"
+#include "eval/report/stage_images.h"
+#include "pipeline/run/artifact_store.h"
 #include "render/renderer.h"
 #include "scenes/file_bytes.h"
 
@@ -138,13 +138,13 @@ void add_stages(HtmlPage& page, const ReportInput& input, const std::vector<Stag
   }
 }
 
-std::vector<std::string> write_pictures(const std::vector<const Figure*>& figures, const fs::path& folder) {
+std::vector<std::string> write_images(const std::vector<const Figure*>& figures, const fs::path& folder) {
   std::vector<std::string> files;
   for (const auto* figure : figures) files.push_back("renders/" + figure->name + ".png");
   fs::create_directories(folder / "renders");
   tbb::parallel_for(std::size_t{0}, figures.size(), [&](std::size_t i) {
     std::vector<unsigned char> bytes;
-    cv::imencode(".png", figures[i]->picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3});
+    cv::imencode(".png", figures[i]->image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 3});
     write_file_atomically(folder / files[i], std::string(bytes.begin(), bytes.end()));
   });
   return files;
@@ -177,7 +177,7 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   for (const auto& figure : errors) figures.push_back(&figure);
   for (const auto& stage : stages)
     for (const auto& figure : stage.figures) figures.push_back(&figure);
-  auto files = write_pictures(figures, folder);
+  auto files = write_images(figures, folder);
   write_file_atomically(folder / "report.html", page.text());
   files.push_back("report.html");
   return files;

@@ -6,7 +6,7 @@
 
 namespace dressform {
 
-// The measures that people look at first, against the targets of the road.
+// The measures that people look at first, against the targets of the pipeline.
 struct ScoreLine {
   std::string part;     // "registration", "top", "bottom", ...
   std::string measure;  // "worst rotation"

@@ -4,7 +4,7 @@
 
 namespace dressform {
 
-// The heading of a model frame means nothing; pictures turn it about y so that a chosen viewer stands at +z.
+// The heading of a model frame means nothing; images turn it about y so that a chosen viewer stands at +z.
 
 // Azimuth (radians about y, 0 at +z) from which the first registered sensor looks at the model; 0 when none is.
 double front_heading(const Reconstruction& reconstruction);

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "pipeline/artifact_store.h"
+#include "pipeline/run/artifact_store.h"
 #include "scenes/scene.h"
 #include "synthetic/synthesize.h"
 

@@ -40,9 +40,9 @@ std::string registration_json(const Reconstruction& reconstruction) {
   return text.dump(1) + "\n";
 }
 
-void write_png(const fs::path& file, const cv::Mat& picture) {
+void write_png(const fs::path& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
   write_file_atomically(file, std::string(bytes.begin(), bytes.end()));
 }
 

@@ -49,12 +49,12 @@ std::vector<std::array<Vector2f, 3>> subdivided(const std::vector<std::array<Vec
 }
 
 cv::Mat plaid(const cv::Scalar& ground, const cv::Scalar& lines) {
-  cv::Mat picture(1024, 1024, CV_8UC3, ground);
+  cv::Mat image(1024, 1024, CV_8UC3, ground);
   for (int at = 0; at < 1024; at += 64) {
-    cv::rectangle(picture, {at, 0}, {at + 14, 1023}, lines, cv::FILLED);
-    cv::rectangle(picture, {0, at}, {1023, at + 8}, lines * 0.6, cv::FILLED);
+    cv::rectangle(image, {at, 0}, {at + 14, 1023}, lines, cv::FILLED);
+    cv::rectangle(image, {0, at}, {1023, at + 8}, lines * 0.6, cv::FILLED);
   }
-  return picture;
+  return image;
 }
 
 void write_plain_obj(const fs::path& file, const Mesh& mesh) {
@@ -93,7 +93,7 @@ fs::path write_own_scene(const fs::path& folder) {
   return folder / "own.toml";
 }
 
-TEST(RoadOwnMeshes, RunThroughToFittedClothes) {
+TEST(EndToEndOwnMeshes, RunThroughToFittedClothes) {
   const fs::path folder = fs::path(testing::TempDir()) / "road_own_meshes";
   fs::remove_all(folder);
   fs::create_directories(folder);

@@ -41,11 +41,11 @@ ScoreRow row_of(const Scores& scores, const std::string& stage, const std::strin
   return {};
 }
 
-class RoadRigs : public testing::TestWithParam<int> {
+class EndToEndRigs : public testing::TestWithParam<int> {
  protected:
   static fs::path folder() { return fs::path(testing::TempDir()) / "road_rigs"; }
   static void SetUpTestSuite() { fs::remove_all(folder()); }
-  RoadRunResult run(int sensors) const {
+  EndToEndResult run(int sensors) const {
     SceneRunRequest request;
     request.scene = scaled(read_scene(write_ring_scene(folder() / "scene", sensors)), kScale);
     request.scale = kScale;
@@ -55,7 +55,7 @@ class RoadRigs : public testing::TestWithParam<int> {
   }
 };
 
-TEST_P(RoadRigs, RunThroughToFittedClothes) {
+TEST_P(EndToEndRigs, RunThroughToFittedClothes) {
   const int sensors = GetParam();
   const auto result = run(sensors);
   ASSERT_TRUE(result.scores);
@@ -72,7 +72,7 @@ TEST_P(RoadRigs, RunThroughToFittedClothes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(FewestAndMost, RoadRigs, testing::Values(1, 12));
+INSTANTIATE_TEST_SUITE_P(FewestAndMost, EndToEndRigs, testing::Values(1, 12));
 
 }  // namespace
 }  // namespace dressform

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "pipeline/artifact_store.h"
+#include "pipeline/run/artifact_store.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"

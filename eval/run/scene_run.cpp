@@ -4,24 +4,24 @@
 
 namespace dressform {
 
-RoadRunResult run_scene(const SceneRunRequest& request, const SceneRunProgress& progress) {
+EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress& progress) {
   check_options(request.options);
   RunFolder::check(request.output);
   ArtifactStore store(request.store);
   const auto capture = stored_capture(request.scene, request.scale, request.options.seed, store, progress.capture);
   if (progress.captured) progress.captured(capture);
-  RoadRunRequest road{capture.session, request.output,  store.root(), request.scene.name,
-                      request.variant, request.options, false,        request.threads};
-  road.facts = {{"scene_file", request.scene.file.string()},
-                {"scene_toml", request.scene.toml},
-                {"scale", request.scale},
-                {"sensor_model", request.scene.sensor_model.variant},
-                {"capture",
-                 {{"key", capture.recipe.key()},
-                  {"seconds", capture.seconds},
-                  {"peak_memory_mb", capture.peak_memory_mb},
-                  {"reused", capture.reused}}}};
-  return run_road(road, progress.road);
+  EndToEndRequest pipeline{capture.session, request.output,  store.root(), request.scene.name,
+                           request.variant, request.options, false,        request.threads};
+  pipeline.facts = {{"scene_file", request.scene.file.string()},
+                    {"scene_toml", request.scene.toml},
+                    {"scale", request.scale},
+                    {"sensor_model", request.scene.sensor_model.variant},
+                    {"capture",
+                     {{"key", capture.recipe.key()},
+                      {"seconds", capture.seconds},
+                      {"peak_memory_mb", capture.peak_memory_mb},
+                      {"reused", capture.reused}}}};
+  return run_end_to_end(pipeline, progress.pipeline);
 }
 
 }  // namespace dressform

@@ -3,12 +3,12 @@
 #include <string>
 
 #include "eval/run/capture_store.h"
-#include "eval/run/road_run.h"
+#include "eval/run/end_to_end.h"
 #include "scenes/scene.h"
 
 namespace dressform {
 
-// The whole road from a scene: capture (or the stored one), then run_road.
+// The whole pipeline from a scene: capture (or the stored one), then run_end_to_end.
 struct SceneRunRequest {
   Scene scene;       // scaled, with its sensor model chosen
   double scale = 1;  // what it was scaled by, for the records
@@ -20,8 +20,8 @@ struct SceneRunRequest {
 struct SceneRunProgress {
   SynthesisProgress capture;
   std::function<void(const StoredCapture&)> captured;
-  RoadRunProgress road;
+  EndToEndProgress pipeline;
 };
-RoadRunResult run_scene(const SceneRunRequest& request, const SceneRunProgress& progress = {});
+EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress& progress = {});
 
 }  // namespace dressform

@@ -13,7 +13,7 @@ namespace {
 // Shared unknowns: infrared camera, colour camera, step from infrared to colour, depth offset.
 constexpr int ir_at = 0, color_at = 9, step_at = 18, offset_at = 24, shared = 25;
 constexpr double huber = 3;               // in sigmas
-constexpr double least_sigma_px = 0.02;   // a perfect picture is not trusted without end
+constexpr double least_sigma_px = 0.02;   // a perfect image is not trusted without end
 constexpr double usual_offset_m = 0.03;   // Kinects: 10 to 25 mm
 constexpr double single_depth_m = 0.004;  // scatter of one square's depth, for Huber only
 

@@ -72,7 +72,7 @@ void refine(const cv::Mat& grey, const BoardGrid& grid, std::vector<cv::Point2f>
 
 std::vector<cv::Point2f> found_at(const cv::Mat& grey, double factor, const BoardGrid& grid) {
   std::vector<cv::Point2f> corners;
-  // The exhaustive search takes seconds on large pictures that show no board.
+  // The exhaustive search takes seconds on large images that show no board.
   const int flags = cv::CALIB_CB_ACCURACY | (factor <= 2 ? cv::CALIB_CB_EXHAUSTIVE : 0);
   const bool found = cv::findChessboardCornersSB(resampled(grey, factor), {grid.columns, grid.rows}, corners, flags);
   if (!found || static_cast<int>(corners.size()) != grid.count()) return {};

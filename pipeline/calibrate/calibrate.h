@@ -2,7 +2,7 @@
 #include <map>
 #include <string>
 
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "scenes/capture_session.h"
 
 namespace dressform {

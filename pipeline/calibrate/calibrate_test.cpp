@@ -4,18 +4,18 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "pipeline/calibrate/board_pictures_for_tests.h"
 #include "pipeline/calibrate/from_boards.h"
 #include "pipeline/calibrate/projection.h"
-#include "pipeline/common/color_mapping.h"
-#include "pipeline/common/depth_map.h"
+#include "pipeline/imaging/color_mapping.h"
+#include "pipeline/imaging/depth_map.h"
+#include "pipeline/testing/board_images.h"
 #include "scenes/serialize.h"
 
 namespace dressform {
 namespace {
 
-using board_pictures::grid;
-using board_pictures::pose;
+using board_images::grid;
+using board_images::pose;
 using testing::HasSubstr;
 
 CaptureSession session_with(Boards boards) {
@@ -28,7 +28,7 @@ CaptureSession session_with(Boards boards) {
 // Ten good boards, drawn once.
 const Boards& good_boards() {
   static const Boards boards =
-      board_pictures::boards(board_pictures::sensor(), board_pictures::varied_poses(board_pictures::sensor()));
+      board_images::boards(board_images::sensor(), board_images::varied_poses(board_images::sensor()));
   return boards;
 }
 
@@ -55,7 +55,7 @@ double angle_deg(const Isometry3d& a, const Isometry3d& b) {
 }
 
 void expect_near_truth(const SensorCalibration& found, double loose = 1) {
-  const SensorCalibration truth = board_pictures::sensor();
+  const SensorCalibration truth = board_images::sensor();
   EXPECT_NEAR(found.ir.fx / truth.ir.fx, 1, 0.002 * loose);
   EXPECT_NEAR(found.ir.fy / truth.ir.fy, 1, 0.002 * loose);
   EXPECT_NEAR(found.color->fx / truth.color->fx, 1, 0.002 * loose);
@@ -94,11 +94,10 @@ TEST(Calibrate, SbDistortionAndDepthPlaneFindTheKnownSensor) {
 
 // The thesis knows no distortion: right on a sensor that has none, and its residual tells where there is some.
 TEST(Calibrate, ThesisIsRightWithoutDistortionOnly) {
-  SensorCalibration straight = board_pictures::sensor();
+  SensorCalibration straight = board_images::sensor();
   straight.ir.distortion = straight.color->distortion = {0, 0, 0, 0, 0};
   straight.depth_offset_m = 0;
-  const auto found =
-      run(session_with(board_pictures::boards(straight, board_pictures::varied_poses(straight))), "thesis");
+  const auto found = run(session_with(board_images::boards(straight, board_images::varied_poses(straight))), "thesis");
   EXPECT_NEAR(found.calibration.sensors.at("k1").ir.fx / straight.ir.fx, 1, 0.003);
   EXPECT_LT(found.boards.at("k1").ir_rms_px, 0.1);
   const SensorFit bent = fit_sensor(found_boards(), {}, by_thesis, nullptr);
@@ -109,9 +108,9 @@ TEST(Calibrate, ThesisIsRightWithoutDistortionOnly) {
 // Depth of the boards with the offset found is their true depth, by both ways in which later stages read depth.
 TEST(Calibrate, TheOffsetIsTakenOffByWhatReadsDepth) {
   const SensorCalibration found = fit_sensor(found_boards(), {}, by_bundle, nullptr).sensor;
-  const SensorCalibration truth = board_pictures::sensor();
+  const SensorCalibration truth = board_images::sensor();
   const auto true_m =
-      board_pictures::picture(truth.ir, board_pictures::varied_poses(truth)[0], grid()).depth_m.at<float>(212, 256);
+      board_images::image(truth.ir, board_images::varied_poses(truth)[0], grid()).depth_m.at<float>(212, 256);
   const cv::Mat& measured = good_boards().shots.at("k1")[0].depth_mm;
   EXPECT_NEAR(measured.at<std::uint16_t>(212, 256) / 1000.0, true_m + truth.depth_offset_m, 0.001);
   EXPECT_NEAR(corrected_depth_mm(measured, found).at<float>(212, 256) / 1000, true_m, 0.0015);
@@ -141,7 +140,7 @@ TEST(Calibrate, TurnedCornersArePutRight) {
 }
 
 TEST(Calibrate, MirroredColourIsAnInputError) {
-  Boards boards = board_pictures::copy_of(good_boards());
+  Boards boards = board_images::copy_of(good_boards());
   for (auto& shot : boards.shots["k1"]) {
     cv::Mat mirrored;
     cv::flip(shot.color, mirrored, 1);
@@ -151,7 +150,7 @@ TEST(Calibrate, MirroredColourIsAnInputError) {
 }
 
 TEST(Calibrate, MirroredDepthIsAnInputError) {
-  Boards boards = board_pictures::copy_of(good_boards());
+  Boards boards = board_images::copy_of(good_boards());
   boards.shots["k1"].resize(4);
   for (auto& shot : boards.shots["k1"]) {
     cv::Mat mirrored;
@@ -162,7 +161,7 @@ TEST(Calibrate, MirroredDepthIsAnInputError) {
 }
 
 TEST(Calibrate, BlurredCutOffAndOneSidedBoardsAreSurvived) {
-  Boards boards = board_pictures::copy_of(good_boards());
+  Boards boards = board_images::copy_of(good_boards());
   auto& shots = boards.shots["k1"];
   cv::GaussianBlur(shots[1].color.clone(), shots[1].color, {}, 6);
   cv::GaussianBlur(shots[2].ir.clone(), shots[2].ir, {}, 5);
@@ -178,10 +177,10 @@ TEST(Calibrate, BlurredCutOffAndOneSidedBoardsAreSurvived) {
 }
 
 TEST(Calibrate, ThreeFrontalBoardsDoNotFixTheFocalLength) {
-  const SensorCalibration s = board_pictures::sensor();
+  const SensorCalibration s = board_images::sensor();
   CaptureSession session = session_with(
-      board_pictures::boards(s, {pose(s, grid(), 200, 200, 1.0, 0, 0, 0), pose(s, grid(), 300, 220, 1.02, 0, 0, 5),
-                                 pose(s, grid(), 250, 212, 1.01, 1, 0, 90)}));
+      board_images::boards(s, {pose(s, grid(), 200, 200, 1.0, 0, 0, 0), pose(s, grid(), 300, 220, 1.02, 0, 0, 5),
+                               pose(s, grid(), 250, 212, 1.01, 1, 0, 90)}));
   const Calibrated alone = run(session);
   EXPECT_NEAR(alone.calibration.sensors.at("k1").ir.fx / s.ir.fx, 1, 0.05);
   EXPECT_FALSE(alone.boards.at("k1").converged);
@@ -193,9 +192,9 @@ TEST(Calibrate, ThreeFrontalBoardsDoNotFixTheFocalLength) {
 }
 
 TEST(Calibrate, ThreeGoodBoardsAreEnough) {
-  const SensorCalibration s = board_pictures::sensor();
-  const auto poses = board_pictures::varied_poses(s);
-  const Calibrated found = run(session_with(board_pictures::boards(s, {poses[1], poses[4], poses[9]})));
+  const SensorCalibration s = board_images::sensor();
+  const auto poses = board_images::varied_poses(s);
+  const Calibrated found = run(session_with(board_images::boards(s, {poses[1], poses[4], poses[9]})));
   expect_near_truth(found.calibration.sensors.at("k1"), 8);
 }
 
@@ -203,7 +202,7 @@ TEST(Calibrate, WithoutDepthTheOffsetIsTheSessions) {
   SensorBoards boards = found_boards();
   for (auto& view : boards.views) view.depth.clear();
   EXPECT_EQ(fit_sensor(boards, {}, by_bundle, nullptr).sensor.depth_offset_m, 0);
-  const SensorCalibration given = board_pictures::sensor();
+  const SensorCalibration given = board_images::sensor();
   const SensorFit found = fit_sensor(boards, {}, by_bundle, &given);
   EXPECT_EQ(found.report.depth_views, 0);
   expect_near_truth(found.sensor, 2);
@@ -211,7 +210,7 @@ TEST(Calibrate, WithoutDepthTheOffsetIsTheSessions) {
 }
 
 TEST(Calibrate, NoBoardFoundSaysWhatWasExpected) {
-  Boards boards = board_pictures::copy_of(good_boards());
+  Boards boards = board_images::copy_of(good_boards());
   boards.shots["k1"].resize(3);
   for (auto& shot : boards.shots["k1"]) shot.ir.setTo(1000);
   for (const char* variant : {"bundle", "automatic"})
@@ -225,23 +224,23 @@ TEST(Calibrate, NoBoardFoundSaysWhatWasExpected) {
 }
 
 TEST(Calibrate, OtherSignOfTheStepIsNoted) {
-  SensorCalibration other = board_pictures::sensor();
+  SensorCalibration other = board_images::sensor();
   other.color_from_ir.translation().x() *= -1;
   EXPECT_THAT(fit_sensor(found_boards(), {}, by_bundle, &other).note, HasSubstr("mirrored"));
-  const SensorCalibration same = board_pictures::sensor();
+  const SensorCalibration same = board_images::sensor();
   EXPECT_EQ(fit_sensor(found_boards(), {}, by_bundle, &same).note, "");
 }
 
 TEST(Calibrate, WithoutBoardsTheSessionsCalibrationPasses) {
   CaptureSession session;
   session.sensors = {"k1"};
-  session.calibration = Calibration{{{"k1", board_pictures::sensor()}, {"handheld", board_pictures::sensor()}}};
+  session.calibration = Calibration{{{"k1", board_images::sensor()}, {"handheld", board_images::sensor()}}};
   for (const char* variant : {"automatic", "from_session"})
     EXPECT_EQ(to_bytes(run(session, variant).calibration), to_bytes(*session.calibration));
 }
 
 TEST(Projection, DerivativesAreThoseOfDifferences) {
-  const Camera camera = board_pictures::sensor().ir;
+  const Camera camera = board_images::sensor().ir;
   const Vector2d ideal(0.31, -0.22);
   const Projection at = project_ideal(camera, ideal);
   EXPECT_LT((at.pixel - camera.project(Vector3d(0.31, -0.22, 1))).norm(), 1e-9);

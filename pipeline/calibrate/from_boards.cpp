@@ -11,7 +11,7 @@
 namespace dressform {
 namespace {
 
-constexpr double impossible_depth_m = 0.15;  // of a board's mean depth: such a picture shows something else
+constexpr double impossible_depth_m = 0.15;  // of a board's mean depth: such an image shows something else
 constexpr double sure_focal = 0.01;          // relative sigma up to which a focal length counts as found
 
 double middle(std::vector<double> values) {
@@ -169,7 +169,7 @@ std::string problem_with(const SensorBoards& boards, const BoardParams& params) 
   return fmt::format(
       "found the board of {} x {} inner corners in {} infrared and {} colour images of {} shots, in both of {}; "
       "expected "
-      "at least {} in each kind and one pair, with the whole board in the picture",
+      "at least {} in each kind and one pair, with the whole board in the image",
       boards.grid.columns, boards.grid.rows, ir, color, boards.shots, both, params.min_views);
 }
 

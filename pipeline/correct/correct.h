@@ -3,7 +3,7 @@
 #include <string>
 
 #include "pipeline/fit/fit.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 
 namespace dressform {
 

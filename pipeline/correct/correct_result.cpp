@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/common/intersections.h"
+#include "pipeline/geometry/intersections.h"
 #include "scenes/error.h"
 
 namespace dressform {

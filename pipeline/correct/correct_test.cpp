@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "pipeline/common/intersections.h"
-#include "pipeline/common/mesh_query.h"
-#include "pipeline/common/sleeves.h"
-#include "pipeline/fit/figure_for_tests.h"
+#include "pipeline/garment/sleeves.h"
+#include "pipeline/geometry/intersections.h"
+#include "pipeline/geometry/mesh_query.h"
+#include "pipeline/testing/figure.h"
 #include "scenes/error.h"
 #include "scenes/serialize.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/intersections.h"
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/body/body_limbs.h"
+#include "pipeline/geometry/intersections.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "scenes/mesh.h"
 
 namespace dressform {

@@ -1,8 +1,8 @@
 // Each vertex of cloth inside the body, or nearer than the gap, goes to the nearest point of the surface and the gap
 // beyond it: once, and nothing else moves.
 
-#include "pipeline/common/mesh_query.h"
 #include "pipeline/correct/correct_result.h"
+#include "pipeline/geometry/mesh_query.h"
 
 namespace dressform {
 namespace {

@@ -1,9 +1,9 @@
 // Cloth pushed out of the body by exact signed distances, pushes diffused over the cloth, repeated until exact
 // predicates find no triangle of one that meets a triangle of the other.
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/sleeves.h"
+#include "pipeline/body/body_limbs.h"
 #include "pipeline/correct/correct_result.h"
 #include "pipeline/correct/push_out.h"
+#include "pipeline/garment/sleeves.h"
 
 namespace dressform {
 namespace {
@@ -28,7 +28,7 @@ CorrectedGarments signed_distance_smooth(const BodyModel& user, const FittedGarm
   const IntersectionFinder finder(user.body);
   CorrectedGarments result;
   for (const auto& [name, garment] : fitted.garments) {
-    const auto beside = bare_arm_triangles(user.body, limbs, garment.mesh, 0.06);
+    const auto beside = exposed_arm_triangles(user.body, limbs, garment.mesh, 0.06);
     PushedOut pushed =
         push_out(garment.mesh, body, finder, beside, {params.gap_m, params.rounds, params.diffusion_rounds});
     add_corrected(name, garment, std::move(pushed.vertices), pushed.intersecting_pairs, result);

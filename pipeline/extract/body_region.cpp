@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "pipeline/common/floor.h"
 #include "pipeline/extract/depth_components.h"
+#include "pipeline/geometry/floor.h"
 
 namespace dressform {
 namespace {

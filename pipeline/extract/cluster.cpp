@@ -5,11 +5,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "pipeline/common/color_mapping.h"
-#include "pipeline/common/floor.h"
 #include "pipeline/extract/body_region.h"
 #include "pipeline/extract/color_outline.h"
 #include "pipeline/extract/extract.h"
+#include "pipeline/geometry/floor.h"
+#include "pipeline/imaging/color_mapping.h"
 #include "scenes/random.h"
 
 namespace dressform {

@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "pipeline/common/color_histogram.h"
-#include "pipeline/common/color_mapping.h"
-#include "pipeline/common/graph_cut.h"
+#include "pipeline/imaging/color_histogram.h"
+#include "pipeline/imaging/color_mapping.h"
+#include "pipeline/imaging/graph_cut.h"
 
 namespace dressform {
 namespace {
@@ -74,7 +74,7 @@ double median_of(const cv::Mat& values, const cv::Mat& mask, double otherwise) {
   return kept[kept.size() / 2];
 }
 
-// Nats in favour of the surroundings where the picture equals the one without clothes.
+// Nats in favour of the surroundings where the image equals the one without clothes.
 void add_unchanged(const cv::Mat& bgr, const Background& background, const cv::Mat& around, int margin_px,
                    cv::Mat& cost) {
   const cv::Mat change = color_distance(bgr, background.bgr);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "pipeline/fuse/fuse.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "scenes/capture_session.h"
 
 namespace dressform {

@@ -5,9 +5,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/common/analytic_scene.h"
-#include "pipeline/common/floor.h"
 #include "pipeline/extract/depth_components.h"
+#include "pipeline/geometry/floor.h"
+#include "pipeline/testing/analytic_scene.h"
 
 namespace dressform {
 namespace {

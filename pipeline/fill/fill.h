@@ -2,8 +2,8 @@
 #include <map>
 #include <string>
 
+#include "pipeline/run/stage.h"
 #include "pipeline/segment/segment.h"
-#include "pipeline/stage.h"
 
 namespace dressform {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "pipeline/common/analytic_scene.h"
 #include "pipeline/fill/garment_depth.h"
 #include "pipeline/fill/holes.h"
+#include "pipeline/testing/analytic_scene.h"
 
 namespace dressform {
 namespace {

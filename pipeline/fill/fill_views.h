@@ -18,7 +18,7 @@ struct GarmentView {
   Isometry3d model_from_sensor;
 };
 
-// Gives colours to one view's filled pixels (mask == 128 of views[index]); returns the 8-bit BGR picture.
+// Gives colours to one view's filled pixels (mask == 128 of views[index]); returns the 8-bit BGR image.
 using ColorFill = std::function<cv::Mat(const std::vector<GarmentView>& views, std::size_t index)>;
 
 // What all variants share: certain depth, holes and their depth, masks; `color` then paints each view. Views without

@@ -1,7 +1,7 @@
 #pragma once
 #include <opencv2/core/mat.hpp>
 
-#include "pipeline/common/color_mapping.h"
+#include "pipeline/imaging/color_mapping.h"
 #include "pipeline/segment/segment.h"
 
 namespace dressform {

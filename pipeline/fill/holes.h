@@ -1,8 +1,8 @@
 #pragma once
 #include <opencv2/core/mat.hpp>
 
-#include "pipeline/common/mesh_query.h"
 #include "pipeline/fill/garment_depth.h"
+#include "pipeline/geometry/mesh_query.h"
 
 namespace dressform {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "pipeline/common/sleeves.h"
+#include "pipeline/garment/sleeves.h"
 
 namespace dressform {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/sleeves.h"
+#include "pipeline/garment/sleeves.h"
 
 namespace dressform {
 namespace {
@@ -21,7 +21,7 @@ struct ClothedBody {
 };
 
 ClothedBody clothed_body(const Mesh& garment, const StandingBody& naked) {
-  const auto bare = bare_arm_triangles(naked.mesh, naked.limbs, garment, 0.04);
+  const auto bare = exposed_arm_triangles(naked.mesh, naked.limbs, garment, 0.04);
   ClothedBody result;
   result.mesh.vertices = naked.mesh.vertices;
   for (std::size_t i = 0; i < bare.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pipeline/fuse/fuse.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "pipeline/texture/texture.h"
 
 namespace dressform {

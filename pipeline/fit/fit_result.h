@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/mesh_query.h"
 #include "pipeline/fit/fit.h"
+#include "pipeline/geometry/mesh_query.h"
 
 namespace dressform {
 

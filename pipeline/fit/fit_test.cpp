@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "pipeline/fit/figure_for_tests.h"
 #include "pipeline/fit/rbf_field.h"
 #include "pipeline/fit/standing_body.h"
+#include "pipeline/testing/figure.h"
 #include "scenes/error.h"
 #include "scenes/serialize.h"
 

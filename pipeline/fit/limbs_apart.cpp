@@ -8,8 +8,8 @@
 #include <functional>
 #include <utility>
 
-#include "pipeline/common/mesh_query.h"
-#include "pipeline/common/sector.h"
+#include "pipeline/geometry/mesh_query.h"
+#include "pipeline/geometry/sector.h"
 #include "scenes/disjoint_sets.h"
 
 namespace dressform {

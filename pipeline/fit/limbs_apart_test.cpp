@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/fit/figure_for_tests.h"
+#include "pipeline/testing/figure.h"
 
 namespace dressform {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/common/section_depth.h"
+#include "pipeline/body/section_depth.h"
 #include "scenes/error.h"
 
 namespace dressform {

@@ -2,9 +2,9 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/body/body_limbs.h"
 #include "pipeline/fit/trunk_outline.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "scenes/mesh.h"
 
 namespace dressform {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
+#include "pipeline/body/body_limbs.h"
 
 namespace dressform {
 

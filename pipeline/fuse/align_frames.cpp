@@ -15,10 +15,11 @@ constexpr int kLeastInliers = 60;
 
 FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projector, int frame,
                                const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
-                               const Isometry3d& initial, const std::vector<PairGate>& gates, int iterations) {
+                               const Isometry3d& initial, const std::vector<CorrespondenceRejector>& gates,
+                               int iterations) {
   FrameAlignment result;
   result.world_from_frame = initial;
-  for (const PairGate& gate : gates)
+  for (const CorrespondenceRejector& gate : gates)
     for (int iteration = 0; iteration < iterations; ++iteration) {
       PairEquations sum;
       for (const int target : targets) {
@@ -85,14 +86,14 @@ std::vector<Vector6d> solve_poses(int count, const std::vector<std::pair<int, in
 
 GlobalAlignment align_all(const ScanFrames& frames, const Projector& projector,
                           const std::vector<std::pair<int, int>>& undirected, std::vector<Isometry3d> world_from_frame,
-                          const std::vector<PairGate>& gates, int iterations) {
+                          const std::vector<CorrespondenceRejector>& gates, int iterations) {
   std::vector<std::pair<int, int>> pairs;
   for (const auto& [a, b] : undirected) {
     pairs.emplace_back(a, b);
     pairs.emplace_back(b, a);
   }
   GlobalAlignment result;
-  for (const PairGate& gate : gates)
+  for (const CorrespondenceRejector& gate : gates)
     for (int iteration = 0; iteration < iterations; ++iteration) {
       std::vector<PairEquations> equations(pairs.size());
       tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {

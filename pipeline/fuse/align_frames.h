@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/common/pair_equations.h"
+#include "pipeline/alignment/pair_equations.h"
 #include "pipeline/fuse/scan_frames.h"
 
 namespace dressform {
@@ -18,7 +18,8 @@ struct FrameAlignment {
 // Aligns one frame to others whose poses stay fixed, through the gates in turn (iterations each).
 FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projector, int frame,
                                const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
-                               const Isometry3d& initial, const std::vector<PairGate>& gates, int iterations);
+                               const Isometry3d& initial, const std::vector<CorrespondenceRejector>& gates,
+                               int iterations);
 
 struct GlobalAlignment {
   std::vector<Isometry3d> world_from_frame;
@@ -32,6 +33,6 @@ struct GlobalAlignment {
 // spread afterwards (multi-view registration in the sense of Pulli, 3DIM 1999).
 GlobalAlignment align_all(const ScanFrames& frames, const Projector& projector,
                           const std::vector<std::pair<int, int>>& pairs, std::vector<Isometry3d> world_from_frame,
-                          const std::vector<PairGate>& gates, int iterations);
+                          const std::vector<CorrespondenceRejector>& gates, int iterations);
 
 }  // namespace dressform

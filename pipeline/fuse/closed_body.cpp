@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <numeric>
 
-#include "pipeline/common/lattice.h"
-#include "pipeline/common/mesh_query.h"
-#include "pipeline/common/mesh_tidy.h"
-#include "pipeline/common/poisson.h"
 #include "pipeline/fuse/body_points.h"
 #include "pipeline/fuse/thigh_gap.h"
+#include "pipeline/geometry/lattice.h"
+#include "pipeline/geometry/mesh_cleanup.h"
+#include "pipeline/geometry/mesh_query.h"
+#include "pipeline/geometry/poisson.h"
 
 namespace dressform {
 namespace {
@@ -100,7 +100,7 @@ Mesh ball_like(const Mesh& mesh, const Lattice& lattice, std::vector<float> dist
   BallReport report;
   const auto field = ball_field(lattice, std::move(distances), report);
   if (field.empty()) return {};
-  Mesh result = tidied(lattice_surface(lattice, field), kStep_m);
+  Mesh result = edge_collapsed(lattice_surface(lattice, field), kStep_m);
   snap_to(MeshQuery(mesh), 0.3 * kStep_m, result);
   return result;
 }

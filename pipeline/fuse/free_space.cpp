@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/depth_map.h"
+#include "pipeline/imaging/depth_map.h"
 
 namespace dressform {
 namespace {
@@ -46,7 +46,8 @@ std::vector<std::size_t> near_deep_ones(const Lattice& lattice, const std::vecto
 
 }  // namespace
 
-std::vector<int> count_seen_through(const std::vector<Vector3d>& points, const ScanViews& views, double margin_m) {
+std::vector<int> count_free_space_violations(const std::vector<Vector3d>& points, const ScanViews& views,
+                                             double margin_m) {
   std::vector<int> counts(points.size(), 0);
   const Projector projector(views.calibration.ir);
   std::vector<Eigen::Isometry3f> frame_from_model;
@@ -81,7 +82,7 @@ Carved carved(const Lattice& lattice, std::vector<float> field, const PointCloud
     asked.push_back(i);
     points.push_back(lattice.point(i));
   }
-  const std::vector<int> counts = count_seen_through(points, views, options.margin_m);
+  const std::vector<int> counts = count_free_space_violations(points, views, options.margin_m);
   for (std::size_t k = 0; k < asked.size(); ++k)
     if (counts[k] >= options.least_views) through.push_back(asked[k]);
   Carved result{std::move(field), 0};

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/lattice.h"
+#include "pipeline/geometry/lattice.h"
 #include "scenes/camera.h"
 #include "scenes/frame.h"
 #include "scenes/mesh.h"
@@ -24,7 +24,8 @@ struct FreeSpaceOptions {
 
 // How many frames saw through each of the points (model frame): the pixel there measures something farther away. Pixels
 // without depth say nothing. Takes raw pixels, not cleaned ones: a slit two pixels wide has no pixel off its edges.
-std::vector<int> count_seen_through(const std::vector<Vector3d>& points, const ScanViews& views, double margin_m);
+std::vector<int> count_free_space_violations(const std::vector<Vector3d>& points, const ScanViews& views,
+                                             double margin_m);
 
 struct Carved {
   std::vector<float> field;

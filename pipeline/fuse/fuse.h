@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "scenes/camera.h"
 #include "scenes/frame.h"
 #include "scenes/mesh.h"

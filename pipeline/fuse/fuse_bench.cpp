@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "pipeline/common/test_scene.h"
 #include "pipeline/fuse/align_frames.h"
 #include "pipeline/fuse/block_volume.h"
+#include "pipeline/testing/test_scene.h"
 
 namespace dressform {
 namespace {

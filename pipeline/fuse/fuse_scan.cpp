@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "pipeline/common/floor.h"
+#include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
 
 namespace dressform {

@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "pipeline/common/mesh_query.h"
-#include "pipeline/common/test_scene.h"
 #include "pipeline/fuse/block_volume.h"
 #include "pipeline/fuse/body_points.h"
 #include "pipeline/fuse/closed_body.h"
 #include "pipeline/fuse/free_space.h"
 #include "pipeline/fuse/fuse_scan.h"
 #include "pipeline/fuse/track.h"
+#include "pipeline/geometry/mesh_query.h"
+#include "pipeline/testing/test_scene.h"
 
 namespace dressform {
 namespace {

@@ -25,7 +25,7 @@ BodyModel pose_graph(const DepthScan& scan, const SensorCalibration& calibration
   const Projector projector(frames.first_usable().camera);
   Track track = close_loop(frames, projector, track_odometry(frames, projector));
   const auto pairs = overlapping_pairs(track, params.pairs_per_frame, params.largest_angle_deg);
-  const std::vector<PairGate> gates{{0.04, 0.8, 1}, {0.02, 0.85, 1}};
+  const std::vector<CorrespondenceRejector> gates{{0.04, 0.8, 1}, {0.02, 0.85, 1}};
   const GlobalAlignment all = align_all(frames, projector, pairs, track.world_from_frame, gates, params.iterations);
   track.world_from_frame = all.world_from_frame;
   track.residual_rms_m = all.residual_rms_m;

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/depth_map.h"
+#include "pipeline/imaging/depth_map.h"
 #include "scenes/frame.h"
 
 namespace dressform {

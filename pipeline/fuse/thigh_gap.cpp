@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/section_depth.h"
+#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/section_depth.h"
 
 namespace dressform {
 namespace {

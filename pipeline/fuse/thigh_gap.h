@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/lattice.h"
+#include "pipeline/geometry/lattice.h"
 #include "scenes/mesh.h"
 
 namespace dressform {

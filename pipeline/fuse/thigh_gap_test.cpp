@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/body_limbs.h"
+#include "pipeline/body/body_limbs.h"
 
 namespace dressform {
 namespace {

@@ -14,7 +14,9 @@ constexpr double kLeastInlierPart = 0.35;
 constexpr int kAlignmentIterations = 6;
 constexpr double kSuspiciousCost = 1.5;  // of a frame's alignment, relative to the median before
 
-std::vector<PairGate> coarse_to_fine() { return {{0.2, 0.5, 4}, {0.08, 0.7, 3}, {0.04, 0.8, 2}, {0.02, 0.85, 1}}; }
+std::vector<CorrespondenceRejector> coarse_to_fine() {
+  return {{0.2, 0.5, 4}, {0.08, 0.7, 3}, {0.04, 0.8, 2}, {0.02, 0.85, 1}};
+}
 
 Vector3d viewing_direction(const Isometry3d& world_from_frame) { return world_from_frame.linear().col(2); }
 
@@ -31,7 +33,7 @@ std::vector<int> recent_frames(const std::vector<int>& tracked) {
   return result;
 }
 
-// Where the object in front of a sensor stands: the median depth of the middle of the picture, along the axis.
+// Where the object in front of a sensor stands: the median depth of the middle of the image, along the axis.
 double object_distance(const DepthMap& map) {
   std::vector<float> depths;
   for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
@@ -78,7 +80,7 @@ bool good(const FrameAlignment& alignment) { return alignment.converged && align
 // The best of several starts by its robust cost.
 FrameAlignment best_alignment(const ScanFrames& frames, const Projector& projector, int frame,
                               const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
-                              const std::vector<Isometry3d>& starts, const std::vector<PairGate>& gates) {
+                              const std::vector<Isometry3d>& starts, const std::vector<CorrespondenceRejector>& gates) {
   std::vector<FrameAlignment> results(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
     results[k] =
@@ -169,8 +171,8 @@ Track close_loop(const ScanFrames& frames, const Projector& projector, Track tra
     if (track.tracked[i]) targets.push_back(i);
   const Isometry3d& open = track.world_from_frame[late];
   const auto starts = orbit_starts(open, object_distance(frames.maps[late]), 3, 4);
-  std::vector<PairGate> gates = coarse_to_fine();
-  gates.insert(gates.begin(), PairGate{0.3, 0.5, 4});
+  std::vector<CorrespondenceRejector> gates = coarse_to_fine();
+  gates.insert(gates.begin(), CorrespondenceRejector{0.3, 0.5, 4});
   const FrameAlignment found = best_alignment(frames, projector, late, targets, track.world_from_frame, starts, gates);
   if (!good(found)) return track;
   track.loop_found = true;

@@ -12,7 +12,7 @@ using SensorOptics = std::map<std::string, DepthOptics>;  // by sensor
 // Of the sensors that measure by time of flight.
 SensorOptics time_of_flight_optics(const Calibration& calibration);
 
-// By cell: the floor's below, the other's elsewhere, for images without an infrared picture.
+// By cell: the floor's below, the other's elsewhere, for images without an infrared image.
 std::vector<float> assumed_albedo(const SurfaceCells& cells, const Multipath& known);
 
 // The same session with bounced light taken off the depth of its shots; scans are left as they are.

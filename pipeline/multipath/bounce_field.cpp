@@ -118,11 +118,11 @@ void smooth_normals(SurfaceCells& cells) {
     }
 }
 
-// A cell that the picture's border cuts is moved back into it: a single row of pixels has no slope.
-cv::Rect inside(const cv::Rect& cell, const cv::Size& picture) {
-  return cv::Rect(std::min(cell.x, std::max(0, picture.width - cell.width)),
-                  std::min(cell.y, std::max(0, picture.height - cell.height)), cell.width, cell.height) &
-         cv::Rect({}, picture);
+// A cell that the image's border cuts is moved back into it: a single row of pixels has no slope.
+cv::Rect inside(const cv::Rect& cell, const cv::Size& image) {
+  return cv::Rect(std::min(cell.x, std::max(0, image.width - cell.width)),
+                  std::min(cell.y, std::max(0, image.height - cell.height)), cell.width, cell.height) &
+         cv::Rect({}, image);
 }
 
 // What the emitter sends into a direction: the lens loses four powers of the cosine to the axis, lens and emitter
@@ -154,7 +154,7 @@ SurfaceCells surface_cells(const cv::Mat& depth_mm, const cv::Mat& ir, const Dep
     const CellFit fit = sums_of(depth_mm, ir, optics, cell, median);
     if (fit.n < std::max(3.0, kLeastCovered * cell.area())) continue;
     fill_cell(fit, optics.calibration.ir, i, cells);
-    const cv::Rect own = cv::Rect(corner, cell.br());  // less than the cell's at the picture's border
+    const cv::Rect own = cv::Rect(corner, cell.br());  // less than the cell's at the image's border
     cells.solid_angle[i] *= static_cast<float>(own.area()) / static_cast<float>(cell.area());
   }
   smooth_normals(cells);

@@ -12,7 +12,7 @@ struct SurfaceCells {
   int edge_px = 8, columns = 0, rows = 0;
   std::vector<float> x, y, z, normal_x, normal_y, normal_z;  // normals: unit, towards the sensor
   std::vector<float> solid_angle;                            // of what was seen in the cell
-  std::vector<float> ir_counts;                              // mean amplitude; empty without an infrared picture
+  std::vector<float> ir_counts;                              // mean amplitude; empty without an infrared image
   int count() const { return columns * rows; }
 };
 

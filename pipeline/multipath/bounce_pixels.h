@@ -5,7 +5,7 @@ namespace dressform {
 
 // What tells how strongly a pixel is lit directly.
 struct PixelLight {
-  cv::Mat ir;                // infrared picture of the same size; empty: the geometry alone tells
+  cv::Mat ir;                // infrared image of the same size; empty: the geometry alone tells
   double signal_counts = 0;  // amplitude of a white surface that faces the camera at 1 m
 };
 

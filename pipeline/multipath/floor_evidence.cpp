@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/floor.h"
+#include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
 
 namespace dressform {

@@ -2,7 +2,7 @@
 #include <map>
 #include <string>
 
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "scenes/capture_session.h"
 
 namespace dressform {
@@ -28,7 +28,7 @@ struct BounceStrength {
 // What is known about light that a time-of-flight camera receives by a detour, and so too late.
 struct Multipath {
   double signal_counts = 0;                     // amplitude of a white surface that faces the camera at 1 m
-  double floor_albedo = 0, other_albedo = 0;    // in the infrared: for images without an infrared picture
+  double floor_albedo = 0, other_albedo = 0;    // in the infrared: for images without an infrared image
   BounceStrength shots;                         // of all sensors, naked and dressed
   std::map<std::string, BounceStrength> scans;  // by name: "scan_naked", "scan_user"
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "pipeline/common/test_scene.h"
 #include "pipeline/multipath/apply.h"
 #include "pipeline/multipath/bounce_kernel.h"
 #include "pipeline/multipath/bounce_pixels.h"
 #include "pipeline/multipath/floor_evidence.h"
 #include "pipeline/multipath/test_images.h"
+#include "pipeline/testing/test_scene.h"
 
 namespace dressform {
 namespace {
@@ -46,7 +46,7 @@ TEST(Multipath, APlaneDoesNotLightItselfEvenWithNoise) {
   for (const float error : errors_of(surface_cells(plane, {}, optics))) EXPECT_LT(std::abs(error), 2e-4);
 }
 
-TEST(Multipath, CellsCoverPicturesOfAnySize) {
+TEST(Multipath, CellsCoverImagesOfAnySize) {
   // The lowest rows hold the floor that sends most.
   for (const double scale : {1.0, 0.6, 0.37, 0.25}) {
     SensorCalibration sensor = test_scene::kinect(scale);
@@ -72,7 +72,7 @@ double error_in_the_corner(const Vector3d& at, const Vector3d& normal) {
   double cosine[3] = {}, sine[3] = {};
   constexpr int kSteps = 900;
   for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j) {  // the other wall, over the picture's rays
+    for (int j = 0; j < kSteps; ++j) {  // the other wall, over the image's rays
       const double x = 0.7 * (i + 0.5) / kSteps, y = -0.57 + 1.14 * (j + 0.5) / kSteps, z = corner_depth(x);
       const Vector3d from(x * z, y * z, z), back = Vector3d(-1, 0, -1).normalized(), step = from - at;
       const double s = from.norm() / z, angle = 0.7 / kSteps * 1.14 / kSteps / (s * s * s);

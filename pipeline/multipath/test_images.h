@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "pipeline/common/test_scene.h"
 #include "pipeline/multipath/bounce_field.h"
+#include "pipeline/testing/test_scene.h"
 
 namespace dressform::multipath_test {
 

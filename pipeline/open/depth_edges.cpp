@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "pipeline/common/color_mapping.h"
+#include "pipeline/imaging/color_mapping.h"
 
 namespace dressform {
 namespace {
@@ -23,7 +23,7 @@ Vector3d ray_of(const DepthView& view, double x, double y) {
 // One view and what is known of it besides its depth.
 struct SeenView {
   const DepthView& depth;
-  cv::Mat labels;    // at the depth pixels; empty where the colour picture has none
+  cv::Mat labels;    // at the depth pixels; empty where the colour image has none
   cv::Mat naked_mm;  // the naked shot, true depth; empty if there is none from the same place
 
   Label label(int x, int y) const { return labels.empty() ? Label::none : static_cast<Label>(labels.at<uchar>(y, x)); }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/rim_fit.h"
 #include "pipeline/segment/segment.h"
@@ -23,7 +23,7 @@ struct DepthEdgeParams {
 
 // Rim points of a garment by depth alone, by opening: where a sensor stops measuring the closed surface, which runs on
 // beyond the rims, and measures the body behind it. They scatter by a depth pixel, but know nothing of colours, prints
-// and shadows, and reach below the colour camera's picture. Cloth on the skin, as at necks, or on other clothes ends
+// and shadows, and reach below the colour camera's image. Cloth on the skin, as at necks, or on other clothes ends
 // unseen. What is behind is the same sensor's naked shot, unless the mannequin moved since, as it errs alike.
 std::map<std::string, std::vector<RimSample>> depth_rim_samples(
     const Segmentation& segmentation, Label garment, const CaptureSession& session, const std::vector<DepthView>& views,

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/common/sector.h"
+#include "pipeline/geometry/sector.h"
 #include "pipeline/open/cut.h"
 #include "pipeline/open/depth_edges.h"
 #include "pipeline/open/mask_edges.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/rim_fit.h"
 #include "pipeline/segment/segment.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/run/stage.h"
 #include "pipeline/segment/segment.h"
-#include "pipeline/stage.h"
 #include "pipeline/surface/surface.h"
 
 namespace dressform {

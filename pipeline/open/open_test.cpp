@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/dressed_figure_for_tests.h"
 #include "pipeline/open/cut.h"
 #include "pipeline/open/depth_edges.h"
 #include "pipeline/open/rim_fit.h"
 #include "pipeline/surface/surface.h"
+#include "pipeline/testing/dressed_figure.h"
 
 namespace dressform {
 namespace {
@@ -318,7 +318,7 @@ TEST_P(EveryOpening, DepthShowsWhereLegsEnd) {
   clothes.ankle_y = 0.30;
   const figure::Capture capture = figure::capture(clothes, 0.001);
   const ClosedGarments closed = long_legs(clothes);
-  figure::Capture below = capture;  // the colour picture ends 0.45 m above the floor
+  figure::Capture below = capture;  // the colour image ends 0.45 m above the floor
   for (auto& [name, sensor] : below.calibration.sensors) {
     sensor.color->height = 215;
     below.segmentation.labels[name] = below.segmentation.labels[name].rowRange(0, 215).clone();

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
+#include "pipeline/body/body_limbs.h"
 #include "pipeline/registration/registration.h"
 #include "scenes/capture_session.h"
 

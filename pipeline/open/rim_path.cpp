@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/common/distance_transform.h"
+#include "pipeline/imaging/distance_transform.h"
 
 namespace dressform {
 namespace {

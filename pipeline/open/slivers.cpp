@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "pipeline/common/cgal_mesh.h"
+#include "pipeline/geometry/cgal_mesh.h"
 #include "pipeline/open/cut.h"
 
 namespace dressform {

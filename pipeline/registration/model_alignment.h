@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/mesh_query.h"
-#include "pipeline/common/pair_equations.h"
+#include "pipeline/alignment/pair_equations.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/registration/view_points.h"
 
 namespace dressform {

@@ -4,7 +4,7 @@
 
 #include "pipeline/extract/extract.h"
 #include "pipeline/fuse/fuse.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "scenes/capture_session.h"
 
 namespace dressform {

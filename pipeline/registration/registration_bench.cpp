@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "pipeline/common/poisson.h"
-#include "pipeline/common/test_scene.h"
+#include "pipeline/geometry/poisson.h"
 #include "pipeline/registration/model_alignment.h"
+#include "pipeline/testing/test_scene.h"
 
 namespace dressform {
 namespace {

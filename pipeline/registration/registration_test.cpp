@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "pipeline/common/test_scene.h"
 #include "pipeline/registration/initial_poses.h"
+#include "pipeline/testing/test_scene.h"
 #include "scenes/error.h"
 
 namespace dressform {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/floor.h"
+#include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
 
 namespace dressform {
@@ -35,8 +35,8 @@ std::optional<Vector3d> axes_crossing(const RigPrior& prior) {
   return matrix.ldlt().solve(vector);
 }
 
-// Where the thing in front of the sensor stands: on the optical axis, at the median depth of the picture's middle.
-std::optional<Vector3d> middle_of_picture(const DepthMap& map) {
+// Where the thing in front of the sensor stands: on the optical axis, at the median depth of the image's middle.
+std::optional<Vector3d> middle_of_image(const DepthMap& map) {
   std::vector<float> depths;
   for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
     for (int x = map.camera.width * 2 / 5; x < map.camera.width * 3 / 5; ++x) {
@@ -71,7 +71,7 @@ void sort_points(const Scene& scene, ViewPoints& view, int most_points) {
   const bool masked = found != scene.extracted.views.end() && found->second.found_naked &&
                       found->second.naked.rows == view.map.camera.height &&
                       found->second.naked.cols == view.map.camera.width;
-  std::optional<Vector3d> place = middle_of_picture(view.map);
+  std::optional<Vector3d> place = middle_of_image(view.map);
   if (scene.place && view.world_from_sensor) place = view.world_from_sensor->inverse() * *scene.place;
   const Vector3d up = view.floor_plane ? Vector3d(view.floor_plane->head<3>()) : Vector3d(0, -1, 0);
   std::vector<int> body, floor, room;

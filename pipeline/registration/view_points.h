@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/depth_map.h"
+#include "pipeline/imaging/depth_map.h"
 #include "pipeline/registration/registration.h"
 
 namespace dressform {
@@ -22,7 +22,7 @@ struct ViewPoints {
 
 // The naked shot of every sensor of the session that has one. Where extraction found no mannequin, its mask is taken to
 // be what stands above the floor within 0.8 m of the crossing of the prior's optical axes, or without a prior of what
-// lies in the middle of the picture. A sensor without shot or calibration gives a view that is not usable.
+// lies in the middle of the image. A sensor without shot or calibration gives a view that is not usable.
 std::vector<ViewPoints> view_points(const CaptureSession& session, const Calibration& calibration,
                                     const ExtractedViews& extracted, int most_points);
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
+#include "pipeline/body/body_limbs.h"
 
 namespace dressform {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/common/color_histogram.h"
-#include "pipeline/common/graph_cut.h"
+#include "pipeline/imaging/color_histogram.h"
+#include "pipeline/imaging/graph_cut.h"
 #include "pipeline/segment/color_change.h"
 #include "pipeline/segment/skin_colored_cloth.h"
 #include "pipeline/segment/view_models.h"
@@ -37,13 +37,13 @@ float change_nats(float units, const ClothParams& params) {
   return std::clamp(0.7f * (units - kShadowUnits), -0.7f * most, most);
 }
 
-float bare_nats(BarePlace place) {
+float exposed_nats(ExposedSkin place) {
   switch (place) {
-    case BarePlace::head:
+    case ExposedSkin::head:
       return -kHeadNats;
-    case BarePlace::hand:
+    case ExposedSkin::hand:
       return -kHandNats;
-    case BarePlace::foot:
+    case ExposedSkin::foot:
       return -kFootNats;
     default:
       return 0;
@@ -57,7 +57,7 @@ cv::Mat fixed_nats(const ViewEvidence& view, const ClothParams& params) {
     for (int u = 0; u < nats.cols; ++u) {
       if (!view.body.at<uchar>(v, u)) continue;
       nats.at<float>(v, u) = shape_nats(view.offset_mm.at<float>(v, u), params) +
-                             change_nats(view.change.at<float>(v, u), params) + bare_nats(bare_place(view, v, u)) +
+                             change_nats(view.change.at<float>(v, u), params) + exposed_nats(exposed_skin(view, v, u)) +
                              (view.uncovered.at<uchar>(v, u) ? kUncoveredNats : 0);
     }
   }
@@ -84,7 +84,7 @@ void first_guess(const ViewEvidence& view, cv::Mat& skin, cv::Mat& cloth) {
     for (int u = 0; u < skin.cols; ++u) {
       if (!view.body.at<uchar>(v, u)) continue;
       const float offset = view.offset_mm.at<float>(v, u), change = view.change.at<float>(v, u);
-      const bool unchanged = change < kShadowUnits, bare = bare_place(view, v, u) != BarePlace::none;
+      const bool unchanged = change < kShadowUnits, bare = exposed_skin(view, v, u) != ExposedSkin::none;
       if (offset > kSureCloth_mm && !unchanged && !bare) cloth.at<uchar>(v, u) = 255;
       if (offset < kSureSkin_mm && (unchanged || bare)) skin.at<uchar>(v, u) = 255;
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "pipeline/common/distance_transform.h"
+#include "pipeline/imaging/distance_transform.h"
 
 namespace dressform {
 namespace {

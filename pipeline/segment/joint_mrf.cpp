@@ -15,7 +15,7 @@ namespace {
 struct JointMrfParams {
   EvidenceParams evidence;
   ClothParams cloth;
-  TopBottomParams parting;
+  TopBottomParams hem_boundary;
 };
 template <class V>
 void fields(V& v, JointMrfParams& p) {
@@ -30,14 +30,19 @@ void fields(V& v, JointMrfParams& p) {
   v("island_mm2", p.cloth.island_mm2, 0, 50000, "mm^2", "smaller pieces of skin that cloth encloses are print");
   v("raised_mm", p.cloth.raised_mm, 0.5, 100, "mm", "pieces of skin of a larger median offset are cloth of its colour");
   v("cloth_rounds", p.cloth.rounds, 1, 10, "", "rounds of learning the colours of skin and cloth");
-  v("parting_color_nats", p.parting.color_nats, 0, 20, "nats", "most that the colour of one pixel may say about top");
-  v("parting_row_price", p.parting.row_price, 0.01, 100, "nats", "price of 5 mm of change of the hem's height");
-  v("parting_band_mm", p.parting.band_mm, 5, 300, "mm", "band round the hem in which colour decides by pixel");
-  v("parting_smoothness", p.parting.smoothness, 0, 100, "nats", "price of an edge between top and bottom");
-  v("least_mm2", p.parting.least_mm2, 0, 1e6, "mm^2", "cloth on chest or legs below which there is no such garment");
-  v("parting_least_nats", p.parting.least_nats, 0, 3, "nats", "that colour says for a pixel's side of a hem");
-  v("parting_least_share", p.parting.least_share, 0.5, 1, "", "of the pixels beside a hem that tell their side");
-  v("parting_rounds", p.parting.rounds, 1, 10, "", "rounds of learning the colours of top and bottom");
+  v("hem_boundary_color_nats", p.hem_boundary.color_nats, 0, 20, "nats",
+    "most that the colour of one pixel may say about top");
+  v("hem_boundary_row_price", p.hem_boundary.row_price, 0.01, 100, "nats",
+    "price of 5 mm of change of the hem's height");
+  v("hem_boundary_band_mm", p.hem_boundary.band_mm, 5, 300, "mm",
+    "band round the hem in which colour decides by pixel");
+  v("hem_boundary_smoothness", p.hem_boundary.smoothness, 0, 100, "nats", "price of an edge between top and bottom");
+  v("least_mm2", p.hem_boundary.least_mm2, 0, 1e6, "mm^2",
+    "cloth on chest or legs below which there is no such garment");
+  v("hem_boundary_least_nats", p.hem_boundary.least_nats, 0, 3, "nats", "that colour says for a pixel's side of a hem");
+  v("hem_boundary_least_share", p.hem_boundary.least_share, 0.5, 1, "",
+    "of the pixels beside a hem that tell their side");
+  v("hem_boundary_rounds", p.hem_boundary.rounds, 1, 10, "", "rounds of learning the colours of top and bottom");
 }
 
 std::vector<ViewEvidence> gather(const CaptureSession& session, const Calibration& calibration, const NakedBody& body,
@@ -101,9 +106,9 @@ Segmentation joint_mrf(const CaptureSession& session, const Calibration& calibra
   const NakedBody body(naked.body);
   const auto views = gather(session, calibration, body, extracted, registration, params.evidence);
   const auto cloth = find_cloth(views, params.cloth);
-  TopBottomParams parting = params.parting;
-  parting.speck_mm2 = params.cloth.speck_mm2;
-  const TopBottom parted = part_cloth(views, cloth, body.limbs, parting);
+  TopBottomParams hem_boundary = params.hem_boundary;
+  hem_boundary.speck_mm2 = params.cloth.speck_mm2;
+  const TopBottom parted = part_cloth(views, cloth, body.limbs, hem_boundary);
 
   Segmentation result;
   for (std::size_t k = 0; k < views.size(); ++k) {

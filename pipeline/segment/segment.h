@@ -4,7 +4,7 @@
 
 #include "pipeline/extract/extract.h"
 #include "pipeline/registration/registration.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 #include "scenes/label.h"
 
 namespace dressform {

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/common/analytic_scene.h"
 #include "pipeline/segment/hem_curve.h"
+#include "pipeline/testing/analytic_scene.h"
 
 namespace dressform {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 
 // Of a piece of skin that may be cloth.
 constexpr std::size_t kFewestOffsets = 40;
-constexpr double kBareShare = 0.1;       // of head, hands and feet in it
+constexpr double kExposedShare = 0.1;    // of head, hands and feet in it
 constexpr double kLowQuarter = 0.3;      // of the limit: the lower quartile, so that a piece is not half skin
 constexpr double kRegisteredOnly = 2.5;  // of the limit, where only the naked model tells the offset
 
@@ -65,7 +65,7 @@ void raise_pieces(const ViewEvidence& view, double raised_mm, cv::Mat& cloth) {
       const int label = labels.at<int>(y, x);
       if (label == 0) continue;
       ++size[label];
-      bare[label] += bare_place(view, y, x) != BarePlace::none;
+      bare[label] += exposed_skin(view, y, x) != ExposedSkin::none;
       if (const float offset = view.offset_mm.at<float>(y, x); !std::isnan(offset)) offsets[label].push_back(offset);
     }
   }
@@ -74,7 +74,7 @@ void raise_pieces(const ViewEvidence& view, double raised_mm, cv::Mat& cloth) {
   std::vector<char> raised(count, 0);
   for (int label = 1; label < count; ++label) {
     auto& own = offsets[label];
-    if (own.size() < kFewestOffsets || bare[label] > kBareShare * size[label]) continue;
+    if (own.size() < kFewestOffsets || bare[label] > kExposedShare * size[label]) continue;
     std::sort(own.begin(), own.end());
     raised[label] = own[own.size() / 2] > limit_mm && own[own.size() / 4] > kLowQuarter * limit_mm;
   }
@@ -132,7 +132,7 @@ void raise_parts(const ViewEvidence& view, double raised_mm, double speck_mm2, c
   for (int y = 0; y < raised.rows; ++y) {
     for (int x = 0; x < raised.cols; ++x) {
       const uchar code = view.part.at<uchar>(y, x);
-      if (code == 255 || is_leg(static_cast<BodyPart>(code)) || bare_place(view, y, x) != BarePlace::none)
+      if (code == 255 || is_leg(static_cast<BodyPart>(code)) || exposed_skin(view, y, x) != ExposedSkin::none)
         raised.at<uchar>(y, x) = 0;
     }
   }

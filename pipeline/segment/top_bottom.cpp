@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/common/graph_cut.h"
+#include "pipeline/imaging/graph_cut.h"
 #include "pipeline/segment/bottom_kind.h"
 #include "pipeline/segment/cloth_zones.h"
 #include "pipeline/segment/hem_curve.h"
@@ -25,10 +25,10 @@ constexpr double kPlainNats = 2.5;       // no other curve can tell the colours 
 constexpr int kOffPlane_rows = 14;       // that a hem may lie from the plane through it
 constexpr double kLeastSeed_mm2 = 1500;  // of cloth to learn the bottom's colours from
 
-class Divider {
+class HemBoundarySearch {
  public:
-  Divider(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs,
-          const TopBottomParams& params)
+  HemBoundarySearch(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs,
+                    const TopBottomParams& params)
       : views_(views),
         cloth_(cloth),
         limbs_(limbs),
@@ -40,7 +40,7 @@ class Divider {
     TopBottom result;
     result.has_top = area(kSureTop) >= params_.least_mm2;
     if (result.has_top)
-      result.has_bottom = find_parting();
+      result.has_bottom = find_hem_boundary();
     else
       result.has_bottom = area(kSureBottom) >= params_.least_mm2;
     result.top.resize(views_.size());
@@ -59,7 +59,7 @@ class Divider {
   // Two garments where a curve is found on whose sides the colours differ, or where the cloth goes round each leg. The
   // bottom's first colours are those low on the legs, at the lower end of the cloth, or those there that are foreign to
   // the top: the curve that tells the colours best stands.
-  bool find_parting() {
+  bool find_hem_boundary() {
     const auto low = zones_;
     const bool forked = area(kSureBottom) >= params_.least_mm2 && goes_round_each_leg();
     double most_nats = -1;
@@ -212,7 +212,7 @@ class Divider {
     bottom = eroded(bottom, 1);
   }
 
-  // The curve's division of one view, moved to the edges of the picture.
+  // The curve's division of one view, moved to the edges of the image.
   cv::Mat redrawn(std::size_t k) const {
     const ViewEvidence& view = views_[k];
     cv::Mat initial = cv::Mat::zeros(view.box.size(), CV_8U), active = initial.clone();
@@ -265,7 +265,7 @@ class Divider {
 
 TopBottom part_cloth(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs,
                      const TopBottomParams& params) {
-  return Divider(views, cloth, limbs, params).run();
+  return HemBoundarySearch(views, cloth, limbs, params).run();
 }
 
 }  // namespace dressform

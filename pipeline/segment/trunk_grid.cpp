@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/sector.h"
+#include "pipeline/geometry/sector.h"
 
 namespace dressform {
 

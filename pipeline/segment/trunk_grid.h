@@ -2,7 +2,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
+#include "pipeline/body/body_limbs.h"
 
 namespace dressform {
 

@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "pipeline/common/color_histogram.h"
-#include "pipeline/common/color_mapping.h"
+#include "pipeline/imaging/color_histogram.h"
+#include "pipeline/imaging/color_mapping.h"
 #include "pipeline/segment/color_change.h"
 
 namespace dressform {
@@ -103,13 +103,13 @@ DepthFacts depth_facts(const cv::Mat& dressed_mm, const cv::Mat& naked_mm, const
 }
 
 // Of a BodyPart's code, 255 for none, and how far along its limb.
-BarePlace bare_place(uchar code, float limb_end) {
-  if (code == 255) return BarePlace::none;
+ExposedSkin exposed_skin(uchar code, float limb_end) {
+  if (code == 255) return ExposedSkin::none;
   const auto part = static_cast<BodyPart>(code);
-  if (part == BodyPart::head) return BarePlace::head;
-  if (is_arm(part) && limb_end > 0.85f) return BarePlace::hand;
-  if (is_leg(part) && limb_end > 0.93f) return BarePlace::foot;
-  return BarePlace::none;
+  if (part == BodyPart::head) return ExposedSkin::head;
+  if (is_arm(part) && limb_end > 0.85f) return ExposedSkin::hand;
+  if (is_leg(part) && limb_end > 0.93f) return ExposedSkin::foot;
+  return ExposedSkin::none;
 }
 
 float median(std::vector<float> values) {
@@ -122,8 +122,8 @@ bool mannequin_moved(const DepthFacts& facts, double limit_mm) {
   std::vector<float> shifts;
   for (int y = 0; y < facts.part.rows; ++y) {
     for (int x = 0; x < facts.part.cols; ++x) {
-      const BarePlace place = bare_place(facts.part.at<uchar>(y, x), facts.limb_end.at<float>(y, x));
-      if (place != BarePlace::head && place != BarePlace::hand) continue;
+      const ExposedSkin place = exposed_skin(facts.part.at<uchar>(y, x), facts.limb_end.at<float>(y, x));
+      if (place != ExposedSkin::head && place != ExposedSkin::hand) continue;
       if (const float shift = facts.shift_mm.at<float>(y, x); !std::isnan(shift)) shifts.push_back(std::abs(shift));
     }
   }
@@ -256,8 +256,8 @@ void compare_colors(const Shot& dressed, const Shot& naked, const ViewMasks& mas
 
 }  // namespace
 
-BarePlace bare_place(const ViewEvidence& view, int v, int u) {
-  return bare_place(view.part.at<uchar>(v, u), view.limb_end.at<float>(v, u));
+ExposedSkin exposed_skin(const ViewEvidence& view, int v, int u) {
+  return exposed_skin(view.part.at<uchar>(v, u), view.limb_end.at<float>(v, u));
 }
 
 ViewEvidence view_evidence(const Shot& dressed, const Shot* naked, const SensorCalibration& sensor,

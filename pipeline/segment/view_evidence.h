@@ -2,8 +2,8 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/body/body_limbs.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/segment/segment.h"
 
 namespace dressform {
@@ -36,8 +36,8 @@ struct ViewEvidence {
 };
 
 // Places that clothes leave bare.
-enum class BarePlace : unsigned char { none, head, hand, foot };
-BarePlace bare_place(const ViewEvidence& view, int v, int u);
+enum class ExposedSkin : unsigned char { none, head, hand, foot };
+ExposedSkin exposed_skin(const ViewEvidence& view, int v, int u);
 
 struct EvidenceParams {
   double moved_mm = 8;   // median depth change of head and hands beyond which the mannequin moved

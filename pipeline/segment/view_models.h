@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/common/color_histogram.h"
+#include "pipeline/imaging/color_histogram.h"
 #include "pipeline/segment/view_evidence.h"
 
 namespace dressform {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <string>
 
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/body/body_limbs.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/surface/garment_cloud.h"
 
 namespace dressform {

@@ -7,7 +7,7 @@
 #include <nanoflann.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/common/color_mapping.h"
+#include "pipeline/imaging/color_mapping.h"
 #include "pipeline/surface/depth_noise.h"
 
 namespace dressform {
@@ -120,7 +120,7 @@ cv::Mat without_mixed_ends(const cv::Mat& garment_mm, const DepthView& view, con
   return result;
 }
 
-// The garment's depth image with what joins it outside the colour camera's picture and stands off the naked legs.
+// The garment's depth image with what joins it outside the colour camera's image and stands off the naked legs.
 cv::Mat extended_depth(const cv::Mat& garment_mm, const DepthView& view, const MeshQuery& naked, const BodyLimbs& limbs,
                        const GarmentCloudParams& params) {
   cv::Mat result = garment_mm.clone();
@@ -221,12 +221,13 @@ std::vector<char> plausible(const GarmentCloud& cloud, const std::vector<DepthVi
     const double distance = naked.signed_distance(p, closest);
     keep[i] = distance >= -params.inside_body_m && distance <= farthest;
     for (const DepthView& view : views)
-      if (keep[i] && view.index != cloud.cloud.views[i] && seen_through_m(view, p) > params.see_through_m) keep[i] = 0;
+      if (keep[i] && view.index != cloud.cloud.views[i] && free_space_violation_m(view, p) > params.see_through_m)
+        keep[i] = 0;
   }
   return keep;
 }
 
-std::vector<char> sociable(const std::vector<Vector3d>& points, int neighbours, double sigmas) {
+std::vector<char> statistical_inliers(const std::vector<Vector3d>& points, int neighbours, double sigmas) {
   std::vector<char> keep(points.size(), 1);
   if (static_cast<int>(points.size()) <= neighbours) return keep;
   const Nearest adaptor{points};
@@ -278,7 +279,7 @@ std::vector<DepthView> depth_views(const CaptureSession& session, const Calibrat
   return views;
 }
 
-double seen_through_m(const DepthView& view, const Vector3d& point) {
+double free_space_violation_m(const DepthView& view, const Vector3d& point) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const Vector3d p = view.sensor_from_model * point;
   if (p.z() < 0.1) return nothing;
@@ -321,7 +322,7 @@ GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled
     add_view(each, *view, own, result);
   }
   filter(result, plausible(result, views, naked, limbs.crotch_y, params));
-  filter(result, sociable(result.cloud.points, params.neighbours, params.outlier_sigma));
+  filter(result, statistical_inliers(result.cloud.points, params.neighbours, params.outlier_sigma));
   return result;
 }
 

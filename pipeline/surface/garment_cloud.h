@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/body/body_limbs.h"
 #include "pipeline/fill/fill.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/registration/registration.h"
 #include "scenes/capture_session.h"
 
@@ -65,12 +65,12 @@ std::vector<DepthView> depth_views(const CaptureSession& session, const Calibrat
 
 // How far in front of everything that the view sees around its pixel the point (model frame) lies, metres; negative
 // behind; NaN where the view has no depth for all of the 3 x 3 pixels or does not cover the point.
-double seen_through_m(const DepthView& view, const Vector3d& point);
+double free_space_violation_m(const DepthView& view, const Vector3d& point);
 
 // Oriented, coloured, cleaned points of a garment ("top", "bottom"): depth smoothed by local plane fits; without edges
 // of the depth image, grazing surface, points that other views see through, points far from the naked body, and
 // statistical outliers. Views that are not registered are left out. May be empty. A bottom goes on where the colour
-// camera's picture ends (the Kinect's depth reaches lower): into depth that joins it and stands off the naked legs.
+// camera's image ends (the Kinect's depth reaches lower): into depth that joins it and stands off the naked legs.
 GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled, const std::vector<DepthView>& views,
                            const CaptureSession& session, const MeshQuery& naked, const BodyLimbs& limbs,
                            const GarmentCloudParams& params);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/common/lattice.h"
-#include "pipeline/common/mesh_tidy.h"
-#include "pipeline/surface/carried_on.h"
+#include "pipeline/geometry/lattice.h"
+#include "pipeline/geometry/mesh_cleanup.h"
 #include "pipeline/surface/covered_body.h"
+#include "pipeline/surface/extrapolated.h"
 #include "pipeline/surface/garment_cloud.h"
 #include "pipeline/surface/leg_hulls.h"
 #include "pipeline/surface/offset_field.h"
@@ -137,7 +137,7 @@ void carve(const Space& space, const CoveredBody& body, const std::vector<DepthV
         if (space.body_distance[at] - ease[at] > outside) continue;
         const Vector3d point = space.lattice.point(x, y, z);
         for (const DepthView& view : views)
-          if (seen_through_m(view, point) > params.carve_m) {
+          if (free_space_violation_m(view, point) > params.carve_m) {
             if (body.beyond_ends(point) + params.margin_m > -params.end_m) break;
             data.value[at] = space.body_distance[at] - outside;
             data.weight[at] = std::max(data.weight[at], 0.5f);
@@ -194,7 +194,7 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
                                           const std::optional<Outer>& outer, const std::vector<DepthView>& views,
                                           const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {
   const CoveredBody body(naked, limbs, name, extent, params.margin_m);
-  const GarmentCloud carried = carried_on(cloud, name, extent, naked, limbs, params.margin_m);
+  const GarmentCloud carried = extrapolated(cloud, name, extent, naked, limbs, params.margin_m);
   const Space space = make_space(body, carried.cloud, params);
 
   LatticeData data = plane_distances(space.lattice, carried, cloud.smoothing * params.kernel_m, params.reach_m);
@@ -208,7 +208,7 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
   std::vector<float> field = ball_field(space.lattice, solid(space, body, hulls, ease, outer, params), report);
   if (field.empty()) return {};
   ClosedGarment garment;
-  garment.mesh = tidied(lattice_surface(space.lattice, field), params.edge_m);
+  garment.mesh = edge_collapsed(lattice_surface(space.lattice, field), params.edge_m);
   garment.support = std::move(cloud.cloud);
   return garment;
 }

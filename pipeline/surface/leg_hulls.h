@@ -3,15 +3,15 @@
 #include <array>
 #include <vector>
 
-#include "pipeline/common/body_limbs.h"
+#include "pipeline/body/body_limbs.h"
 #include "pipeline/surface/covered_body.h"
 #include "scenes/mesh.h"
 
 namespace dressform {
 
-// How far cloth round a leg can reach towards the other leg, where no view sees it: little beyond the convex hull of the
-// leg and what is seen of the cloth, level by level. An ease that is harmonic round the leg would make it bulge there,
-// by as much as it stands off the leg outside.
+// How far cloth round a leg can reach towards the other leg, where no view sees it: little beyond the convex hull of
+// the leg and what is seen of the cloth, level by level. An ease that is harmonic round the leg would make it bulge
+// there, by as much as it stands off the leg outside.
 class LegHulls {
  public:
   // Without hulls where the garment is not forked.

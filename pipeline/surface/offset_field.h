@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/common/lattice.h"
+#include "pipeline/geometry/lattice.h"
 #include "pipeline/surface/garment_cloud.h"
 
 namespace dressform {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "pipeline/fill/fill.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 
 namespace dressform {
 

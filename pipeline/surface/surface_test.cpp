@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/common/dressed_figure_for_tests.h"
-#include "pipeline/surface/carried_on.h"
 #include "pipeline/surface/covered_body.h"
+#include "pipeline/surface/extrapolated.h"
 #include "pipeline/surface/leg_hulls.h"
 #include "pipeline/surface/tucked.h"
+#include "pipeline/testing/dressed_figure.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -106,7 +106,7 @@ TEST(Tucked, TheOuterGarmentIsTheOneFurtherOffTheBody) {
 }
 
 // A flared skirt in eight folds, seen down to 30 mm above its hem.
-TEST(CarriedOn, FoldsAndFlareGoOnToTheHem) {
+TEST(Extrapolated, FoldsAndFlareGoOnToTheHem) {
   const Mesh body = figure::body_mesh();
   const BodyLimbs limbs = find_limbs(body);
   constexpr double kSlope = 0.3, kEnd_m = 0.5;
@@ -123,7 +123,7 @@ TEST(CarriedOn, FoldsAndFlareGoOnToTheHem) {
   GarmentExtent extent;
   extent.top_y = 1.0;
   extent.bottom_y = kEnd_m;
-  const GarmentCloud carried = carried_on(cloud, "bottom", extent, MeshQuery(body), limbs, 0.05);
+  const GarmentCloud carried = extrapolated(cloud, "bottom", extent, MeshQuery(body), limbs, 0.05);
   ASSERT_GT(carried.cloud.points.size(), cloud.cloud.points.size() + 1000);
   double lowest = 1;
   for (std::size_t i = cloud.cloud.points.size(); i < carried.cloud.points.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/common/sector.h"
+#include "pipeline/geometry/sector.h"
 
 namespace dressform {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-#include "pipeline/common/body_limbs.h"
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/body/body_limbs.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "scenes/mesh.h"
 
 namespace dressform {

@@ -18,7 +18,7 @@ constexpr int kAxes = 6;  // +x, -x, +y, -y, +z, -z
 constexpr double kSmallestScale = 0.01;
 constexpr double kLeastFacing = 0.1;  // more oblique triangles are laid out along an axis
 
-// Twice the area of a triangle in a picture; positive where it is counter-clockwise as displayed (y is down).
+// Twice the area of a triangle in an image; positive where it is counter-clockwise as displayed (y is down).
 double displayed_area(const Corners& c) {
   return -((c[1] - c[0]).x() * (c[2] - c[0]).y() - (c[1] - c[0]).y() * (c[2] - c[0]).x());
 }
@@ -36,7 +36,7 @@ int axis_of(const Vector3d& normal) {
   return static_cast<int>(2 * k + (normal[k] < 0));
 }
 
-// Picture coordinates seen from outside along an axis: right x down points into the surface.
+// Image coordinates seen from outside along an axis: right x down points into the surface.
 Vector2d along_axis(int axis, const Vector3d& p, double pixels_per_m) {
   const int k = axis / 2;
   const Vector3d outward = Vector3d::Unit(k) * (axis % 2 ? -1 : 1);
@@ -45,7 +45,7 @@ Vector2d along_axis(int axis, const Vector3d& p, double pixels_per_m) {
   return pixels_per_m * Vector2d(right.dot(p), down.dot(p));
 }
 
-// Every triangle's picture before charts are cut apart; `source` says which picture.
+// Every triangle's image before charts are cut apart; `source` says which image.
 struct Layout {
   std::vector<int> source;
   std::vector<Corners> corners;
@@ -119,7 +119,7 @@ std::vector<std::vector<int>> pieces(const std::vector<std::vector<int>>& neighb
 
 struct Chart {
   std::vector<int> triangles;
-  Vector2d shift = Vector2d::Zero();  // whole pixels: place in the chart less place in the picture
+  Vector2d shift = Vector2d::Zero();  // whole pixels: place in the chart less place in the image
   cv::Size size;
 };
 

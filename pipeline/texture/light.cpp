@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/texture/color_view.h"
 #include "pipeline/texture/gains.h"
 

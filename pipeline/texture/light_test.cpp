@@ -58,7 +58,7 @@ TEST(Light, NoneFromABodyOfTwoColours) {
   EXPECT_FALSE(light_of(dressed_and_naked(lit_grey, painted)));
 }
 
-TEST(Light, NoneWithoutNakedPictures) {
+TEST(Light, NoneWithoutNakedImages) {
   TubeScene scene = dressed_and_naked(lit_grey, lit_grey);
   for (auto& [name, shot] : scene.session.naked) shot.color = cv::Mat();
   EXPECT_FALSE(light_of(scene));

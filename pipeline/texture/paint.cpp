@@ -141,7 +141,7 @@ class Painter {
 };
 
 // Colours spread outwards into empty texels: a few pixels by the mean of their neighbours, for the gutters, and the
-// rest from ever coarser pictures, so that no mipmap level mixes in a foreign colour.
+// rest from ever coarser images, so that no mipmap level mixes in a foreign colour.
 cv::Mat without_gaps(cv::Mat color, cv::Mat covered) {
   const int gutter_steps = 4;
   const auto grown = [](const cv::Mat& values, const cv::Mat& mask, cv::Mat& sum, cv::Mat& weight) {

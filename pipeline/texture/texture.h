@@ -4,7 +4,7 @@
 
 #include "pipeline/fill/fill.h"
 #include "pipeline/open/open.h"
-#include "pipeline/stage.h"
+#include "pipeline/run/stage.h"
 
 namespace dressform {
 

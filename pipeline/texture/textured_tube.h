@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "pipeline/common/mesh_query.h"
+#include "pipeline/geometry/mesh_query.h"
 #include "pipeline/texture/texture.h"
 
 namespace dressform {

@@ -12,8 +12,8 @@ namespace dressform {
 struct FileMesh {
   Mesh mesh;
   std::vector<std::array<Vector2f, 3>> corner_uv;  // one per triangle, v DOWN; NaN for a corner that has none; or empty
-  std::vector<std::filesystem::path> pictures;     // that the file names, each once, where they should lie
-  std::vector<std::string> embedded_pictures;      // PNG or JPEG bytes inside the file
+  std::vector<std::filesystem::path> images;       // that the file names, each once, where they should lie
+  std::vector<std::string> embedded_images;        // PNG or JPEG bytes inside the file
   std::string missing_material_file;               // an OBJ's mtllib that is not there
   bool may_be_split = false;                       // the format repeats a vertex for each texture coordinate it has
 };

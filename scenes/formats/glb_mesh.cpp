@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-// Pictures are kept as they are in the file; whoever needs one decodes it.
+// Images are kept as they are in the file; whoever needs one decodes it.
 bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
                   int size, void*) {
   image->image.assign(bytes, bytes + size);
@@ -189,7 +189,7 @@ class Reader {
     }
   }
 
-  // Texture coordinates that the material's picture wants; remembers the picture.
+  // Texture coordinates that the material's image wants; remembers the image.
   std::vector<Vector2f> read_uv(const tinygltf::Primitive& primitive, std::size_t vertices) {
     int set = 0;
     if (primitive.material >= 0) {
@@ -212,9 +212,9 @@ class Reader {
   void read_image(int index) {
     const tinygltf::Image& image = at(model_.images, index, "image");
     if (!image.image.empty())
-      result_.embedded_pictures.emplace_back(image.image.begin(), image.image.end());
+      result_.embedded_images.emplace_back(image.image.begin(), image.image.end());
     else if (!image.uri.empty())
-      result_.pictures.push_back(folder_ / image.uri);
+      result_.images.push_back(folder_ / image.uri);
   }
 
   std::string where_;

@@ -83,11 +83,10 @@ class Materials : public tinyobj::MaterialReader {
   std::filesystem::path folder_;
 };
 
-void add_picture(const std::filesystem::path& folder, std::string name, FileMesh& result) {
+void add_image(const std::filesystem::path& folder, std::string name, FileMesh& result) {
   std::replace(name.begin(), name.end(), '\\', '/');
   const auto path = folder / name;
-  if (std::find(result.pictures.begin(), result.pictures.end(), path) == result.pictures.end())
-    result.pictures.push_back(path);
+  if (std::find(result.images.begin(), result.images.end(), path) == result.images.end()) result.images.push_back(path);
 }
 
 void add_triangles(const std::string& where, const tinyobj::mesh_t& shape, const Coordinates& coordinates,
@@ -141,7 +140,7 @@ FileMesh read_obj_mesh(const std::filesystem::path& path) {
   }
   for (int id : used_materials)
     if (id >= 0 && !materials[id].diffuse_texname.empty())
-      add_picture(path.parent_path(), materials[id].diffuse_texname, result);
+      add_image(path.parent_path(), materials[id].diffuse_texname, result);
   result.missing_material_file = reader.missing;
   result.may_be_split = !coordinates.uv.empty();
   return result;

@@ -103,7 +103,7 @@ FileMesh read_ply_mesh(const std::filesystem::path& path) {
   result.may_be_split = !vertex_uv.empty();
   read_faces(where, *faces, vertex_uv, result);
   for (const auto& comment : file.comments)
-    if (comment.rfind("TextureFile ", 0) == 0) result.pictures.push_back(path.parent_path() / comment.substr(12));
+    if (comment.rfind("TextureFile ", 0) == 0) result.images.push_back(path.parent_path() / comment.substr(12));
   return result;
 }
 

@@ -36,10 +36,10 @@ class ImportKinect2 : public Import {
     return text;
   }
   void shot(int i, const std::string& sync = "_sync") const {
-    picture(number(i) + sync + "_color.png", cv::Mat(kColor, CV_8UC1, cv::Scalar(40 + i)));
-    picture(number(i) + sync + "_ir.png", ramp(kIr, 100 * i, 1));
-    picture(number(i) + sync + "_depth.png", ramp(kIr, 1000 + i, 0));
-    picture(number(i) + sync + "_grey_ir.png", cv::Mat(kIr, CV_8UC1, cv::Scalar(3)));
+    image(number(i) + sync + "_color.png", cv::Mat(kColor, CV_8UC1, cv::Scalar(40 + i)));
+    image(number(i) + sync + "_ir.png", ramp(kIr, 100 * i, 1));
+    image(number(i) + sync + "_depth.png", ramp(kIr, 1000 + i, 0));
+    image(number(i) + sync + "_grey_ir.png", cv::Mat(kIr, CV_8UC1, cv::Scalar(3)));
     write(number(i) + sync + "_ir_points.yaml", "%YAML:1.0\n");
   }
   void calibrate() const {
@@ -119,7 +119,7 @@ TEST_F(ImportKinect2, ShotsNotTakenTogether) {
 TEST_F(ImportKinect2, WhatTheViewerSavesIsRectifiedAndShiftedAlready) {
   fs::remove_all(recording_);
   for (int i = 0; i < 2; ++i) {
-    picture(number(i) + "_depth.png", ramp(kIr, 900, 0));
+    image(number(i) + "_depth.png", ramp(kIr, 900, 0));
     write(number(i) + "_color.jpg", "never opened");
     write(number(i) + "_depth_colored.png", "never opened");
   }
@@ -129,7 +129,7 @@ TEST_F(ImportKinect2, WhatTheViewerSavesIsRectifiedAndShiftedAlready) {
   EXPECT_EQ(sensor.ir.distortion[0], 0);
   EXPECT_EQ(sensor.depth_offset_m, 0);
   fs::remove_all(session_);
-  for (int i = 0; i < 2; ++i) picture(number(i) + "_depth.png", ramp({96, 54}, 900, 0));  // 1920 x 1080 by 20
+  for (int i = 0; i < 2; ++i) image(number(i) + "_depth.png", ramp({96, 54}, 900, 0));  // 1920 x 1080 by 20
   write("calib_color.yaml", yaml_camera("1060, 0., 960, 0., 1058, 530, 0., 0., 1.", "0.05, -0.06, 0, 0, 0.02"));
   sensor = imported(of("iai_kinect2", "scan_user")).calibration->sensors.at("handheld");
   EXPECT_EQ(sensor.ir.width, 96);
@@ -142,12 +142,12 @@ TEST_F(ImportKinect2, ImageErrors) {
   fs::remove(recording_ / "0003_sync_ir.png");
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("0003_sync_ir.png: is missing; expected color, ir and depth"));
   shot(3);
-  picture("0003_sync_ir.png", ramp({62, 53}, 0, 1));
+  image("0003_sync_ir.png", ramp({62, 53}, 0, 1));
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("0003_sync_ir.png: found 62 x 53 pixels; expected 64 x 53"));
-  picture("0003_sync_ir.png", cv::Mat(kIr, CV_8UC1, cv::Scalar(9)));
+  image("0003_sync_ir.png", cv::Mat(kIr, CV_8UC1, cv::Scalar(9)));
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("0003_sync_ir.png: found 8-bit grey; expected 16-bit grey"));
   shot(3);
-  picture("0012_sync_color.png", cv::Mat(kColor, CV_8UC4, cv::Scalar::all(7)));
+  image("0012_sync_color.png", cv::Mat(kColor, CV_8UC4, cv::Scalar::all(7)));
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("0012_sync_color.png: found 8-bit colour with transparency"));
   fs::remove_all(recording_);
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("recording: is missing"));

@@ -30,7 +30,7 @@ class Import : public testing::Test {
     std::filesystem::create_directories((recording_ / name).parent_path());
     std::ofstream(recording_ / name) << text;
   }
-  void picture(const std::string& name, const cv::Mat& image) const {
+  void image(const std::string& name, const cv::Mat& image) const {
     std::filesystem::create_directories((recording_ / name).parent_path());
     cv::imwrite((recording_ / name).string(), image);
   }

@@ -15,8 +15,8 @@ using ImportRedwood = Import;
 
 TEST_F(ImportRedwood, ByTimeInTheName) {
   for (int i = 0; i < 3; ++i) {
-    picture("depth/000000" + std::to_string(i + 1) + "-00000003336" + std::to_string(i) + ".png",
-            ramp(kPrimeSense, 700 + i, 0));
+    image("depth/000000" + std::to_string(i + 1) + "-00000003336" + std::to_string(i) + ".png",
+          ramp(kPrimeSense, 700 + i, 0));
     write("rgb/000000" + std::to_string(i + 5) + "-00000003336" + std::to_string(i) + ".jpg", "never opened");
   }
   const CaptureSession session = imported(of("redwood"));
@@ -27,7 +27,7 @@ TEST_F(ImportRedwood, ByTimeInTheName) {
 
 TEST_F(ImportRedwood, ByNumberWithIntrinsics) {
   for (const char* name : {"00000", "00001", "00010", "00002"}) {
-    picture("depth/" + std::string(name) + ".png", ramp({64, 48}, std::stoi(name) + 900, 0));
+    image("depth/" + std::string(name) + ".png", ramp({64, 48}, std::stoi(name) + 900, 0));
     write("image/" + std::string(name) + ".jpg", "never opened");
   }
   write("camera_intrinsic.json",
@@ -53,18 +53,18 @@ TEST_F(ImportRedwood, Errors) {
   EXPECT_THAT(error(of("redwood")), HasSubstr("depth: is missing"));
   fs::create_directories(recording_ / "depth");
   EXPECT_THAT(error(of("redwood")), HasSubstr("depth: found no images"));
-  picture("depth/0000001-000000000000.png", ramp(kPrimeSense, 1, 0));
-  picture("depth/0000002-000000033333.png", ramp(kPrimeSense, 1, 0));
+  image("depth/0000001-000000000000.png", ramp(kPrimeSense, 1, 0));
+  image("depth/0000002-000000033333.png", ramp(kPrimeSense, 1, 0));
   write("rgb/0000001-000000900000.jpg", "");
   write("rgb/0000002-000000933333.jpg", "");
   EXPECT_THAT(error(of("redwood")), HasSubstr("depth: found 0 of 2 depth frames with a colour frame within 20 ms"));
   write("rgb/00001.jpg", "");
   EXPECT_THAT(error(of("redwood")), HasSubstr("found names with and without a time"));
   fs::remove_all(recording_ / "rgb");
-  picture("depth/0000003-000000010000.png", ramp(kPrimeSense, 1, 0));
+  image("depth/0000003-000000010000.png", ramp(kPrimeSense, 1, 0));
   EXPECT_THAT(error(of("redwood")), HasSubstr("0000003-000000010000.png: found a number or time that does not"));
   fs::remove(recording_ / "depth/0000003-000000010000.png");
-  picture("depth/first.png", ramp(kPrimeSense, 1, 0));
+  image("depth/first.png", ramp(kPrimeSense, 1, 0));
   EXPECT_THAT(error(of("redwood")), HasSubstr("first.png: found no number"));
 }
 

@@ -104,7 +104,7 @@ std::vector<StampedFile> with_partners(const std::vector<StampedFile>& depth, co
 
 void fail_without_infrared(const fs::path& recording) {
   throw InputError(recording.string(),
-                   "found no infrared pictures, which this format does not know and a session's "
+                   "found no infrared images, which this format does not know and a session's "
                    "shots and boards need; expected --role scan_naked or scan_user");
 }
 

@@ -42,7 +42,7 @@ void fields(V& v, StreamParams& p) {
   v("tolerance_ms", p.tolerance_ms, 0.0, 1000.0, "ms", "how far apart in time depth and colour of one moment may be");
 }
 
-// Throws InputError that says why a recording without infrared pictures is no shot and no board.
+// Throws InputError that says why a recording without infrared images is no shot and no board.
 [[noreturn]] void fail_without_infrared(const std::filesystem::path& recording);
 
 }  // namespace dressform

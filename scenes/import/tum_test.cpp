@@ -23,7 +23,7 @@ class ImportTum : public Import {
     std::string depth = "# depth maps\n# file: 'x.bag'\n", color = "# color images\n";
     for (int i = 0; i < 4; ++i) {
       const std::string stamp = "130503." + std::to_string(1 + i);
-      picture("depth/" + stamp + ".png", ramp(kTum, 5000 * (i + 1), 0));
+      image("depth/" + stamp + ".png", ramp(kTum, 5000 * (i + 1), 0));
       depth += stamp + "00000 depth/" + stamp + ".png\n";
       color += stamp + "05000 rgb/" + stamp + ".png\r\n";
     }
@@ -39,7 +39,7 @@ TEST_F(ImportTum, MillimetresAndCameraAreExact) {
                                                     {5000, 1000}, {5003, 1001}, {10500, 2100}, {65535, 13107}};
   for (std::size_t i = 0; i < raw_and_mm.size(); ++i)
     depth.at<std::uint16_t>(7, static_cast<int>(i)) = static_cast<std::uint16_t>(raw_and_mm[i].first);
-  picture("depth/130503.1.png", depth);
+  image("depth/130503.1.png", depth);
   const CaptureSession session = imported(of("tum"));
   const DepthScan& scan = session.scans.at("scan_user");
   ASSERT_EQ(scan.depth_mm.size(), 4u);
@@ -121,9 +121,9 @@ TEST_F(ImportTum, ListErrors) {
 }
 
 TEST_F(ImportTum, ImageErrors) {
-  picture("depth/130503.3.png", ramp({320, 240}, 1, 0));
+  image("depth/130503.3.png", ramp({320, 240}, 1, 0));
   EXPECT_THAT(error(of("tum")), HasSubstr("130503.3.png: found 320 x 240 pixels; expected 640 x 480"));
-  picture("depth/130503.3.png", cv::Mat(kTum, CV_8UC1, cv::Scalar(1)));
+  image("depth/130503.3.png", cv::Mat(kTum, CV_8UC1, cv::Scalar(1)));
   EXPECT_THAT(error(of("tum")), HasSubstr("130503.3.png: found 8-bit grey; expected 16-bit grey"));
   std::string bytes = read_file_bytes(recording_ / "depth/130503.2.png");
   std::ofstream(recording_ / "depth/130503.3.png", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
@@ -133,7 +133,7 @@ TEST_F(ImportTum, ImageErrors) {
 }
 
 TEST_F(ImportTum, NoCalibrationForAnotherSize) {
-  for (int i = 1; i <= 4; ++i) picture("depth/130503." + std::to_string(i) + ".png", ramp({320, 240}, 1, 0));
+  for (int i = 1; i <= 4; ++i) image("depth/130503." + std::to_string(i) + ".png", ramp({320, 240}, 1, 0));
   EXPECT_THAT(error(of("tum")), HasSubstr("130503.1.png: found no calibration for 320 x 240 pixels"));
   ImportRequest request = of("tum");
   request.camera = Camera{0, 0, 262, 262, 159.5, 119.5, {}};
@@ -141,7 +141,7 @@ TEST_F(ImportTum, NoCalibrationForAnotherSize) {
 }
 
 TEST_F(ImportTum, WhatTheSessionDoesNotAllow) {
-  EXPECT_THAT(error(of("tum", "naked")), HasSubstr("no infrared pictures"));
+  EXPECT_THAT(error(of("tum", "naked")), HasSubstr("no infrared images"));
   EXPECT_THAT(error(of("tum", "boards")), HasSubstr("expected --role scan_naked or scan_user"));
   EXPECT_THAT(error(of("tum", "party")), HasSubstr("--role party"));
   ImportRequest request = of("tum");

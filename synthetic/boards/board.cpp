@@ -12,12 +12,12 @@ const cv::Scalar paper(240, 242, 243), ink(42, 42, 44);  // sRGB
 
 // Margins of one square round the pattern; the first square is dark.
 cv::Mat painted(const BoardsSpec& spec) {
-  cv::Mat picture((spec.squares_y + 2) * square_texels, (spec.squares_x + 2) * square_texels, CV_8UC3, paper);
+  cv::Mat image((spec.squares_y + 2) * square_texels, (spec.squares_x + 2) * square_texels, CV_8UC3, paper);
   for (int y = 0; y < spec.squares_y; ++y)
     for (int x = y % 2; x < spec.squares_x; x += 2)
-      cv::rectangle(picture, cv::Rect((x + 1) * square_texels, (y + 1) * square_texels, square_texels, square_texels),
+      cv::rectangle(image, cv::Rect((x + 1) * square_texels, (y + 1) * square_texels, square_texels, square_texels),
                     ink, cv::FILLED);
-  return picture;
+  return image;
 }
 
 }  // namespace

@@ -55,12 +55,12 @@ std::vector<std::uint8_t> tone_curve(float white_balance) {
 cv::Mat toned(const cv::Mat& raw, const FilmSpec& film) {
   const std::vector<std::uint8_t> curves[] = {tone_curve(film.white_balance[2]), tone_curve(film.white_balance[1]),
                                               tone_curve(film.white_balance[0])};
-  cv::Mat picture(raw.size(), CV_8UC3);
+  cv::Mat image(raw.size(), CV_8UC3);
   tbb::parallel_for(0, raw.rows, [&](int y) {
     for (int x = 0; x < raw.cols; ++x)
-      for (int c = 0; c < 3; ++c) picture.at<cv::Vec3b>(y, x)[c] = curves[c][raw.at<cv::Vec3w>(y, x)[c]];
+      for (int c = 0; c < 3; ++c) image.at<cv::Vec3b>(y, x)[c] = curves[c][raw.at<cv::Vec3w>(y, x)[c]];
   });
-  return picture;
+  return image;
 }
 
 }  // namespace
@@ -72,10 +72,10 @@ cv::Mat developed(const cv::Mat& light, const FilmSpec& film, Seed seed) {
     cv::demosaicing(raw, all, cv::COLOR_BayerRGGB2BGR_EA);
     raw = all;
   }
-  cv::Mat picture = toned(raw, film);
-  if (film.jpeg_quality == 0) return picture;
+  cv::Mat image = toned(raw, film);
+  if (film.jpeg_quality == 0) return image;
   std::vector<std::uint8_t> stream;
-  cv::imencode(".jpg", picture, stream, {cv::IMWRITE_JPEG_QUALITY, film.jpeg_quality});
+  cv::imencode(".jpg", image, stream, {cv::IMWRITE_JPEG_QUALITY, film.jpeg_quality});
   return cv::imdecode(stream, cv::IMREAD_COLOR);
 }
 

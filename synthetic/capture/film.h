@@ -17,7 +17,7 @@ struct FilmSpec {
   int jpeg_quality = 90;    // of the stream (4:2:0), 1-100; 0: uncompressed
 };
 
-// The picture that light makes: shot and read noise, one colour filter a pixel and its interpolation, white balance,
+// The image that light makes: shot and read noise, one colour filter a pixel and its interpolation, white balance,
 // sRGB gamma, JPEG. `light`: CV_32FC3, linear RGB behind the lens, 1 = white before the gain. 8-bit BGR, decoded. Bytes
 // depend on the arguments only.
 cv::Mat developed(const cv::Mat& light, const FilmSpec& film, Seed seed);

@@ -28,10 +28,10 @@ TEST(Film, EvenLightKeepsItsColourThroughTheMosaic) {
   for (const bool mosaic : {false, true}) {
     FilmSpec film = noiseless();
     film.mosaic = mosaic;
-    const cv::Mat picture = developed(even(0.6f, 0.25f, 0.05f), film, 1);
-    for (int y = 0; y < picture.rows; ++y)
-      for (int x = 0; x < picture.cols; ++x) {
-        const auto& bgr = picture.at<cv::Vec3b>(y, x);
+    const cv::Mat image = developed(even(0.6f, 0.25f, 0.05f), film, 1);
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x) {
+        const auto& bgr = image.at<cv::Vec3b>(y, x);
         ASSERT_NEAR(bgr[2], level(0.6f), 0.7) << "mosaic " << mosaic << ' ' << x << ' ' << y;
         ASSERT_NEAR(bgr[1], level(0.25f), 0.7) << "mosaic " << mosaic;
         ASSERT_NEAR(bgr[0], level(0.05f), 0.7) << "mosaic " << mosaic;
@@ -58,9 +58,9 @@ TEST(Film, NoiseIsThatOfTheElectronsCounted) {
     film.gain = gain;
     film.electrons_full_scale = 2500 / gain;
     const float linear = 0.5f / gain;  // behind the gain: 0.5
-    cv::Mat picture = developed(even(linear, linear, linear, {400, 300}), film, 7);
+    cv::Mat image = developed(even(linear, linear, linear, {400, 300}), film, 7);
     cv::Scalar mean, deviation;
-    cv::meanStdDev(picture, mean, deviation);
+    cv::meanStdDev(image, mean, deviation);
     const double electrons = 2500 * linear, sigma = std::sqrt(electrons + 9) * gain / 2500;
     const double slope = (level(0.51f) - level(0.49f)) / 0.02;
     EXPECT_NEAR(deviation[1], std::hypot(slope * sigma, 0.29), 0.06 * slope * sigma) << "gain " << gain;
@@ -102,13 +102,13 @@ TEST(Film, JpegLosesWhatItsQualitySays) {
 
 TEST(Film, SameBytesForAnyThreadCountAndSeedsDiffer) {
   const cv::Mat light = even(0.3f, 0.2f, 0.1f, {333, 207});
-  cv::Mat pictures[2];
+  cv::Mat images[2];
   for (int threads = 1; threads <= 2; ++threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    pictures[threads - 1] = developed(light, {}, 1);
+    images[threads - 1] = developed(light, {}, 1);
   }
-  EXPECT_EQ(cv::norm(pictures[0], pictures[1], cv::NORM_INF), 0);
-  EXPECT_GT(cv::norm(pictures[0], developed(light, {}, 2), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(images[0], images[1], cv::NORM_INF), 0);
+  EXPECT_GT(cv::norm(images[0], developed(light, {}, 2), cv::NORM_INF), 0);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void IrView::aim(int count, const IrPacket& packet, RayPacket& rays) const {
 void IrView::trace_block(int left, int top, IrPacket& packet) const {
   const bool inside = left + block <= width() && top + block <= height();
   for (int lane = 0; lane < packet_size; ++lane) {
-    // The ray table has a margin of one pixel; lanes farther out than the picture repeat its last one.
+    // The ray table has a margin of one pixel; lanes farther out than the image repeat its last one.
     const int x = left + lane % block, y = top + lane / block;
     const Vector2f& ideal = inside ? rays_.at(x, y) : rays_.at(std::min(x, width()), std::min(y, height()));
     packet.ideal_x[lane] = ideal.x(), packet.ideal_y[lane] = ideal.y();

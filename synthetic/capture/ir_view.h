@@ -26,7 +26,7 @@ void unpack(const IrPacket& packet, IrSample (&samples)[packet_size]);
 // The world as one infrared camera stands before it: what a sensor model turns into a measured frame.
 class IrView {
  public:
-  // wants_infrared: false for a scan, of which only the depth is kept; a model may then leave the picture empty.
+  // wants_infrared: false for a scan, of which only the depth is kept; a model may then leave the image empty.
   // device: a number for the piece of hardware, the same in all its shots; what makes it differ from its like hangs on
   // it.
   IrView(const RayScene& scene, const RayTable& rays, const Camera& camera, const Isometry3d& world_from_sensor,

@@ -55,7 +55,7 @@ float srgb_from_linear(float value) {
 
 TexturePyramid::TexturePyramid(const cv::Mat& texture) {
   if (texture.empty() || texture.type() != CV_8UC3)
-    throw InputError("texture", "found a picture that is not 8-bit BGR; expected 8-bit BGR");
+    throw InputError("texture", "found an image that is not 8-bit BGR; expected 8-bit BGR");
   levels_.push_back(texture.clone());
   cv::Mat linear = to_linear(texture);
   while (linear.cols > 1 || linear.rows > 1) {

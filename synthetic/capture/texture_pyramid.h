@@ -6,7 +6,7 @@
 
 namespace dressform {
 
-// A picture with its halved copies, averaged in linear light: reading it at the size of a footprint does not alias.
+// An image with its halved copies, averaged in linear light: reading it at the size of a footprint does not alias.
 class TexturePyramid {
  public:
   // texture: 8-bit BGR, sRGB; throws InputError for anything else.

@@ -19,7 +19,7 @@ struct CollaredCloth {
   Mesh mesh;                                    // the cloth's vertices and triangles first, as they were
   std::vector<int> row;                         // per vertex, of the collar: 0 on the rim; -1 elsewhere
   int fold_row = 0;                             // the collar is pressed flat along this row and the next
-  std::vector<std::array<Vector2d, 3>> places;  // per triangle of the collar, by corner: metres in its own picture
+  std::vector<std::array<Vector2d, 3>> places;  // per triangle of the collar, by corner: metres in its own image
                                                 // (as ClothPiece::place)
   // Per edge: part of the cloth's stiffness against bending. Nearly none along the seam and the fold, more in the
   // collar, which is of two layers.

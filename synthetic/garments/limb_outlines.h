@@ -7,7 +7,7 @@
 
 namespace dressform {
 
-// What cloth goes round, as outlines in a tube's own (u, v). All frames run "up" the picture of the cloth: v = up x u,
+// What cloth goes round, as outlines in a tube's own (u, v). All frames run "up" the image of the cloth: v = up x u,
 // so that seen from outside growing angles go to the right.
 
 // Upright about the body's axis: u forwards (+z), v to the body's left (+x), s = height.

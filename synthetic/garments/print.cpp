@@ -24,33 +24,33 @@ cv::Scalar parse_color(const std::string& text) {
 
 // What all painters need.
 struct Canvas {
-  cv::Mat picture;
+  cv::Mat image;
   double pixels_per_m;
   std::vector<cv::Scalar> colors;  // ground first; never empty
   std::string text;
   Seed seed;
 
   cv::Scalar color(size_t i) const { return colors[i < colors.size() ? i : colors.size() - 1]; }
-  cv::Point2d middle() const { return {0.5 * picture.cols, 0.5 * picture.rows}; }
+  cv::Point2d middle() const { return {0.5 * image.cols, 0.5 * image.rows}; }
   double pixels(double metres) const { return metres * pixels_per_m; }
 };
 
 constexpr int kShift = 4;  // fixed-point bits of OpenCV's drawing functions
 cv::Point fixed(const cv::Point2d& p) { return {cvRound(p.x * (1 << kShift)), cvRound(p.y * (1 << kShift))}; }
 
-void fill_polygon(cv::Mat& picture, const std::vector<cv::Point2d>& outline, const cv::Scalar& color) {
+void fill_polygon(cv::Mat& image, const std::vector<cv::Point2d>& outline, const cv::Scalar& color) {
   std::vector<cv::Point> points;
   for (const auto& p : outline) points.push_back(fixed(p));
-  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{points}, color, cv::LINE_AA, kShift);
+  cv::fillPoly(image, std::vector<std::vector<cv::Point>>{points}, color, cv::LINE_AA, kShift);
 }
 
-void draw_star(cv::Mat& picture, const cv::Point2d& center, double radius, double turn, const cv::Scalar& color) {
+void draw_star(cv::Mat& image, const cv::Point2d& center, double radius, double turn, const cv::Scalar& color) {
   std::vector<cv::Point2d> outline;
   for (int i = 0; i < 10; ++i) {
     const double angle = turn + i * CV_PI / 5, r = i % 2 ? 0.42 * radius : radius;
     outline.emplace_back(center.x + r * std::sin(angle), center.y - r * std::cos(angle));
   }
-  fill_polygon(picture, outline, color);
+  fill_polygon(image, outline, color);
 }
 
 constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
@@ -70,7 +70,7 @@ void draw_text(Canvas& canvas, const cv::Point2d& middle, double wanted_m, const
   const int thickness = std::max(1, cvRound(canvas.pixels(height_m) * 0.13));
   int baseline = 0;
   const cv::Size size = cv::getTextSize(canvas.text, kFont, scale, thickness, &baseline);
-  cv::putText(canvas.picture, canvas.text,
+  cv::putText(canvas.image, canvas.text,
               cv::Point(cvRound(middle.x - size.width / 2.0), cvRound(middle.y + size.height / 2.0)), kFont, scale,
               color, thickness, cv::LINE_AA);
 }
@@ -91,7 +91,7 @@ void paint_stars(Canvas& canvas) {
       const bool under_text = !canvas.text.empty() && std::abs(at.y - text_y) < canvas.pixels(0.075) &&
                               std::abs(at.x - middle.x) < half_text + canvas.pixels(0.03);
       if (under_text) continue;
-      draw_star(canvas.picture, at, canvas.pixels(0.014 + 0.018 * u[2]), 2 * CV_PI * u[3],
+      draw_star(canvas.image, at, canvas.pixels(0.014 + 0.018 * u[2]), 2 * CV_PI * u[3],
                 canvas.color(1 + index % std::max<size_t>(1, canvas.colors.size() - 1)));
     }
   if (!canvas.text.empty()) draw_text(canvas, {middle.x, text_y}, text_height, canvas.color(1));
@@ -115,17 +115,17 @@ void paint_complex(Canvas& canvas) {
       const int stroke = std::max(1, cvRound(0.28 * size));
       const int motif = static_cast<int>(v[1] * 4);
       if (motif == 0)
-        cv::ellipse(canvas.picture, fixed(at), fixed({size, 0.4 * size}), turn, 0, 360, color, cv::FILLED, cv::LINE_AA,
+        cv::ellipse(canvas.image, fixed(at), fixed({size, 0.4 * size}), turn, 0, 360, color, cv::FILLED, cv::LINE_AA,
                     kShift);
       if (motif == 1)
-        cv::circle(canvas.picture, fixed(at), cvRound(0.8 * size * (1 << kShift)), color, stroke, cv::LINE_AA, kShift);
+        cv::circle(canvas.image, fixed(at), cvRound(0.8 * size * (1 << kShift)), color, stroke, cv::LINE_AA, kShift);
       if (motif == 2)
-        fill_polygon(canvas.picture,
+        fill_polygon(canvas.image,
                      {{at.x, at.y - size}, {at.x + 0.5 * size, at.y}, {at.x, at.y + size}, {at.x - 0.5 * size, at.y}},
                      color);
       if (motif == 3)
-        cv::ellipse(canvas.picture, fixed(at), fixed({1.2 * size, 0.8 * size}), turn, 20, 200, color, stroke,
-                    cv::LINE_AA, kShift);
+        cv::ellipse(canvas.image, fixed(at), fixed({1.2 * size, 0.8 * size}), turn, 20, 200, color, stroke, cv::LINE_AA,
+                    kShift);
     }
   if (!canvas.text.empty()) draw_text(canvas, middle, 0.08, canvas.color(1));
 }
@@ -134,8 +134,8 @@ void paint_complex(Canvas& canvas) {
 void paint_stripes(Canvas& canvas) {
   for (const double offset : {-0.055, 0.015}) {
     const double y = canvas.middle().y + canvas.pixels(offset - 0.03), half = canvas.pixels(0.018);
-    cv::rectangle(canvas.picture, cv::Point(0, cvRound(y - half)),
-                  cv::Point(canvas.picture.cols - 1, cvRound(y + half)), canvas.color(1), cv::FILLED);
+    cv::rectangle(canvas.image, cv::Point(0, cvRound(y - half)), cv::Point(canvas.image.cols - 1, cvRound(y + half)),
+                  canvas.color(1), cv::FILLED);
   }
   if (!canvas.text.empty())
     draw_text(canvas, {canvas.middle().x, canvas.middle().y - canvas.pixels(0.16)}, 0.06, canvas.color(1));
@@ -164,10 +164,10 @@ void paint_characters(Canvas& canvas) {
       cv::warpAffine(mask, turned, cv::getRotationMatrix2D(cv::Point2f(side / 2.f, side / 2.f), 90 * (u[3] - 0.5), 1),
                      mask.size());
       const cv::Rect whole(cvRound(at.x) - side / 2, cvRound(at.y) - side / 2, side, side);
-      const cv::Rect seen = whole & cv::Rect(0, 0, canvas.picture.cols, canvas.picture.rows);
+      const cv::Rect seen = whole & cv::Rect(0, 0, canvas.image.cols, canvas.image.rows);
       if (seen.empty()) continue;
       const size_t inks = std::max<size_t>(1, canvas.colors.size() - 1);
-      canvas.picture(seen).setTo(canvas.color(1 + index % inks), turned(seen - whole.tl()) > 127);
+      canvas.image(seen).setTo(canvas.color(1 + index % inks), turned(seen - whole.tl()) > 127);
     }
 }
 
@@ -177,7 +177,7 @@ void paint_all_over(Canvas& canvas) {
   const cv::Point2d middle = canvas.middle();
   const int across = static_cast<int>(middle.x / pitch) + 2, down = static_cast<int>(middle.y / pitch) + 2;
   const auto dot = [&](const cv::Point2d& at, double radius, const cv::Scalar& color) {
-    cv::circle(canvas.picture, fixed(at), std::max(1, cvRound(radius * (1 << kShift))), color, cv::FILLED, cv::LINE_AA,
+    cv::circle(canvas.image, fixed(at), std::max(1, cvRound(radius * (1 << kShift))), color, cv::FILLED, cv::LINE_AA,
                kShift);
   };
   for (int j = -down; j <= down; ++j)
@@ -195,20 +195,20 @@ void paint_all_over(Canvas& canvas) {
 
 // Crossing bands, half transparent.
 void paint_plaid(Canvas& canvas) {
-  const cv::Mat ground = canvas.picture.clone();
+  const cv::Mat ground = canvas.image.clone();
   for (int layer = 0; layer < 2; ++layer) {
-    cv::Mat bands = canvas.picture.clone();
+    cv::Mat bands = canvas.image.clone();
     const double pitch = canvas.pixels(0.09), half = canvas.pixels(layer == 0 ? 0.014 : 0.004),
                  shift = layer * 0.5 * pitch;
     for (double x = std::fmod(canvas.middle().x, pitch) - pitch + shift; x < bands.cols; x += pitch)
       cv::rectangle(bands, cv::Point2d(x - half, 0), cv::Point2d(x + half, bands.rows), canvas.color(1 + layer),
                     cv::FILLED);
-    cv::addWeighted(canvas.picture, 0.5, bands, 0.5, 0, canvas.picture);
-    bands = canvas.picture.clone();
+    cv::addWeighted(canvas.image, 0.5, bands, 0.5, 0, canvas.image);
+    bands = canvas.image.clone();
     for (double y = std::fmod(canvas.middle().y, pitch) - pitch + shift; y < bands.rows; y += pitch)
       cv::rectangle(bands, cv::Point2d(0, y - half), cv::Point2d(bands.cols, y + half), canvas.color(1 + layer),
                     cv::FILLED);
-    cv::addWeighted(canvas.picture, 0.5, bands, 0.5, 0, canvas.picture);
+    cv::addWeighted(canvas.image, 0.5, bands, 0.5, 0, canvas.image);
   }
 }
 
@@ -237,7 +237,7 @@ cv::Mat smooth_noise(const cv::Size& size, double across_px, double down_px, See
 
 // Brightness of the weave: yarns of uneven thickness both ways and a slow unevenness of the dye, about 1.
 cv::Mat weave(const Canvas& canvas, double yarn_contrast, double dye_contrast) {
-  const cv::Size size = canvas.picture.size();
+  const cv::Size size = canvas.image.size();
   const double px = canvas.pixels_per_m;
   const auto grain = [&](double across_m, double down_m, const char* name) {
     return smooth_noise(size, std::max(1.0, across_m * px), std::max(1.0, down_m * px), canvas.seed, stream_of(name));
@@ -247,21 +247,21 @@ cv::Mat weave(const Canvas& canvas, double yarn_contrast, double dye_contrast) {
   return factor;
 }
 
-void modulate(cv::Mat& picture, const cv::Mat& factor) {
+void modulate(cv::Mat& image, const cv::Mat& factor) {
   cv::Mat three, values;
   cv::merge(std::vector<cv::Mat>{factor, factor, factor}, three);
-  picture.convertTo(values, CV_32F);
-  cv::Mat(values.mul(three)).convertTo(picture, CV_8U);
+  image.convertTo(values, CV_32F);
+  cv::Mat(values.mul(three)).convertTo(image, CV_8U);
 }
 
 // Random patches in all colours, large ones over fine ones.
 void paint_noise(Canvas& canvas) {
-  const cv::Size size = canvas.picture.size();
+  const cv::Size size = canvas.image.size();
   for (size_t i = 1; i < canvas.colors.size(); ++i) {
     const double grain = canvas.pixels(i % 2 ? 0.030 : 0.012);
     const cv::Mat value = smooth_noise(size, grain, grain, canvas.seed + i, stream_of("noise patches")) +
                           0.5 * smooth_noise(size, 0.3 * grain, 0.3 * grain, canvas.seed + i, stream_of("noise edges"));
-    canvas.picture.setTo(canvas.colors[i], value > 0.45);
+    canvas.image.setTo(canvas.colors[i], value > 0.45);
   }
 }
 
@@ -296,10 +296,10 @@ cv::Mat paint_print(const PrintSpec& spec, double width_m, double height_m, doub
   if (canvas.colors.empty()) canvas.colors.push_back(cv::Scalar(150, 140, 130));
   if (canvas.colors.size() == 1) canvas.colors.push_back(cv::Scalar(240, 240, 240));
   const cv::Size size(std::max(1, cvCeil(width_m * pixels_per_m)), std::max(1, cvCeil(height_m * pixels_per_m)));
-  canvas.picture = cv::Mat(size, CV_8UC3, canvas.colors[0]);
+  canvas.image = cv::Mat(size, CV_8UC3, canvas.colors[0]);
   kind->paint(canvas);
-  modulate(canvas.picture, weave(canvas, kind->yarn_contrast, kind->dye_contrast));
-  return canvas.picture;
+  modulate(canvas.image, weave(canvas, kind->yarn_contrast, kind->dye_contrast));
+  return canvas.image;
 }
 
 }  // namespace dressform

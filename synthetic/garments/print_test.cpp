@@ -15,11 +15,11 @@ TEST(Print, HasTheAskedSizeAndColours) {
        {"plain", "stars", "complex", "stripes", "plaid", "denim", "weave", "characters", "all_over", "noise"}) {
     spec.kind = kind;
     spec.colors = {"#204060", "#ffffff"};
-    const cv::Mat picture = paint_print(spec, 0.5, 0.4, 1000, 5);
-    EXPECT_EQ(picture.size(), cv::Size(500, 400)) << kind;
-    EXPECT_EQ(cv::norm(picture, paint_print(spec, 0.5, 0.4, 1000, 5), cv::NORM_INF), 0) << kind;
+    const cv::Mat image = paint_print(spec, 0.5, 0.4, 1000, 5);
+    EXPECT_EQ(image.size(), cv::Size(500, 400)) << kind;
+    EXPECT_EQ(cv::norm(image, paint_print(spec, 0.5, 0.4, 1000, 5), cv::NORM_INF), 0) << kind;
     cv::Scalar mean, deviation;
-    cv::meanStdDev(picture, mean, deviation);
+    cv::meanStdDev(image, mean, deviation);
     EXPECT_GT(mean[0], mean[2]) << kind;  // bluish ground, BGR
     EXPECT_GT(deviation[0], 0.5) << kind;
   }

@@ -6,7 +6,7 @@
 #include "scenes/random.h"
 #include "synthetic/capture/shapes.h"
 #include "synthetic/capture/texture_pyramid.h"
-#include "synthetic/room/room_pictures.h"
+#include "synthetic/room/room_images.h"
 
 namespace dressform {
 namespace {
@@ -23,8 +23,8 @@ RaySurface plain(const char* name, Mesh mesh, const Vector3f& srgb, float nir_al
   return surface;
 }
 
-RaySurface pictured(const char* name, const Vector3d& corner, const Vector3d& u, const Vector3d& v, cv::Mat texture,
-                    float nir_albedo) {
+RaySurface imaged(const char* name, const Vector3d& corner, const Vector3d& u, const Vector3d& v, cv::Mat texture,
+                  float nir_albedo) {
   RaySurface surface = plain(name, grid_mesh(corner, u, v, grid_step_m), Vector3f::Ones(), nir_albedo);
   surface.corner_uv = grid_uv(surface.mesh, corner, u, v);
   surface.texture = std::move(texture);
@@ -52,14 +52,14 @@ void add_shell(const Half& half, std::vector<RaySurface>& out) {
   const double x = half.x, z = half.z, h = half.height;
   const Vector3d up(0, h, 0);
   // Texture rows run downwards: v from the top edge.
-  out.push_back(pictured("floor", {-x, 0, z}, {2 * x, 0, 0}, {0, 0, -2 * z}, paint_floor(2 * x, 2 * z), 0.5f));
+  out.push_back(imaged("floor", {-x, 0, z}, {2 * x, 0, 0}, {0, 0, -2 * z}, paint_floor(2 * x, 2 * z), 0.5f));
   out.push_back(
       plain("ceiling", grid_mesh({-x, h, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}, 0.25), {0.93f, 0.93f, 0.91f}, 0.7f));
   const cv::Mat wall = paint_wall(2 * x, h, 1), side = paint_wall(2 * z, h, 2);
-  out.push_back(pictured("wall -z", {-x, 0, -z}, {2 * x, 0, 0}, up, wall, 0.6f));
-  out.push_back(pictured("wall +z", {x, 0, z}, {-2 * x, 0, 0}, up, wall, 0.6f));
-  out.push_back(pictured("wall +x", {x, 0, -z}, {0, 0, 2 * z}, up, side, 0.6f));
-  out.push_back(pictured("wall -x", {-x, 0, z}, {0, 0, -2 * z}, up, side, 0.6f));
+  out.push_back(imaged("wall -z", {-x, 0, -z}, {2 * x, 0, 0}, up, wall, 0.6f));
+  out.push_back(imaged("wall +z", {x, 0, z}, {-2 * x, 0, 0}, up, wall, 0.6f));
+  out.push_back(imaged("wall +x", {x, 0, -z}, {0, 0, 2 * z}, up, side, 0.6f));
+  out.push_back(imaged("wall -x", {-x, 0, z}, {0, 0, -2 * z}, up, side, 0.6f));
   const double t = 0.014, s = 0.09;
   out.push_back(boxes("skirting",
                       {{Vector3d(-x, 0, -z), Vector3d(x, s, -z + t)},
@@ -140,9 +140,9 @@ void add_furniture(const Half& half, std::vector<RaySurface>& out) {
                       {0.66f, 0.52f, 0.36f}, 0.6f));
 }
 
-void add_wall_pictures(const Half& half, std::vector<RaySurface>& out) {
+void add_wall_images(const Half& half, std::vector<RaySurface>& out) {
   const auto hang = [&](const char* name, const Vector3d& corner, const Vector3d& u, double height_m, int number) {
-    out.push_back(pictured(name, corner, u, {0, height_m, 0}, paint_poster(u.norm(), height_m, number), 0.5f));
+    out.push_back(imaged(name, corner, u, {0, height_m, 0}, paint_poster(u.norm(), height_m, number), 0.5f));
   };
   const double gap = 0.012;
   hang("poster", {-0.35 * half.x, 1.15, -half.z + gap}, {0.6, 0, 0}, 0.85, 1);
@@ -175,7 +175,7 @@ std::vector<RaySurface> make_room(const RoomSpec& room) {
   if (!room.furniture) return result;
   add_door(half, result);
   add_furniture(half, result);
-  add_wall_pictures(half, result);
+  add_wall_images(half, result);
   return result;
 }
 

@@ -9,7 +9,7 @@ namespace dressform {
 namespace {
 
 // Pixels between the points that gather, and along the edge of a patch that sends on: 5 cm at 2 m, coarser ones lose
-// what is near, whatever the resolution of the picture.
+// what is near, whatever the resolution of the image.
 int edge_px(int width) { return std::max(4, (width + 32) / 64); }
 constexpr float one_surface = 0.05f;  // largest step in depth within a cell of one surface, in parts of the depth
 
@@ -63,7 +63,7 @@ tof::LitPatches patches_of(const IrView& view, const GridHits& hits, int patch, 
     if (z <= 0 || packet.chrome[lane]) continue;
     const double stretch2 =
         1 + packet.ideal_x[lane] * packet.ideal_x[lane] + packet.ideal_y[lane] * packet.ideal_y[lane];
-    const int across = std::min(patch, view.width() - i % hits.columns * patch);  // less at the picture's border
+    const int across = std::min(patch, view.width() - i % hits.columns * patch);  // less at the image's border
     const int down = std::min(patch, view.height() - i / hits.columns * patch);
     const double angle = across * down / (view.camera().fx * view.camera().fy * std::pow(stretch2, 1.5));
     const double profile = std::pow(stretch2, 0.5 * (4 - falloff));

@@ -7,7 +7,7 @@
 namespace dressform {
 
 // Multipath of one bounce over a whole view: gathered on a coarse grid of pixels from small patches of what the
-// emitter lights, and interpolated within each surface. Surfaces outside the picture are outside the emitter's cone as
+// emitter lights, and interpolated within each surface. Surfaces outside the image are outside the emitter's cone as
 // well.
 class BounceMap {
  public:

@@ -34,7 +34,7 @@ void fields(V& v, KinectV1Params& p) {
   v("least_support", p.least_support, 0.0, 1.0, "", "part of the window that must show dots");
   v("least_signal", p.least_signal, 0.0, 1.0, "1/m^2", "albedo x cosine / r^2 below which dots are not seen");
   v("ir_shift_x_px", p.ir_shift_x_px, -20, 20, "px",
-    "the raw infrared picture lies this far to the right of the depth's (5)");
+    "the raw infrared image lies this far to the right of the depth's (5)");
   v("ir_shift_y_px", p.ir_shift_y_px, -20, 20, "px", "and this far below it (4)");
   v("minimum_m", p.minimum_m, 0.0, 2.0, "m", "nearest depth that is measured");
   v("maximum_m", p.maximum_m, 1.0, 20.0, "m", "farthest depth that is measured");
@@ -54,7 +54,7 @@ double sigma_steps() {
   return std::sqrt(total * total - 1.0 / 12);
 }
 
-// A picture of this shape, at whatever resolution the whole scene is rendered.
+// An image of this shape, at whatever resolution the whole scene is rendered.
 void check_shape(const IrView& view) {
   if (3 * view.width() == 4 * view.height()) return;
   throw InputError("sensor kinect_v1", "found an infrared camera of " + std::to_string(view.width()) + " x " +
@@ -202,7 +202,7 @@ class KinectV1 {
 
   // Dots where the projector's rays carry them, ten bits; the projector's shadow is dark.
   cv::Mat infrared(const std::vector<IrSample>& seen, const cv::Mat& lit) const {
-    cv::Mat picture(height_, width_, CV_16UC1, cv::Scalar(0));
+    cv::Mat image(height_, width_, CV_16UC1, cv::Scalar(0));
     const double focal_px = view_.camera().fx;
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
@@ -215,9 +215,9 @@ class KinectV1 {
         const double dot = uniform(0, stream_of("dots"), static_cast<std::uint64_t>(dot_y * 65536 + dot_x)) < 0.2;
         const double light = lit.at<std::uint8_t>(y, x) ? 0.2 + 3 * dot : 0.05;
         const double counts = light * ir_counts(sample, sample.depth_m / sample.distance_m) / 16;
-        picture.at<std::uint16_t>(to_y, to_x) = static_cast<std::uint16_t>(64 * std::min(1023.0, std::round(counts)));
+        image.at<std::uint16_t>(to_y, to_x) = static_cast<std::uint16_t>(64 * std::min(1023.0, std::round(counts)));
       }
-    return picture;
+    return image;
   }
 
   const IrView& view_;

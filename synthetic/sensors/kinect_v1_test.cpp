@@ -71,7 +71,7 @@ TEST(KinectV1, AWindowWithTooFewDotsHasNoDepth) {
   EXPECT_EQ(cv::countNonZero(shoot(scene_of(std::move(chrome))).depth_mm), 0);
 }
 
-TEST(KinectV1, InfraredPictureMayLieBesideTheDepth) {
+TEST(KinectV1, InfraredImageMayLieBesideTheDepth) {
   const RayScene scene = scene_of(plane(2, 0));
   const SensorFrame straight = shoot(scene), moved = shoot(scene, {{"ir_shift_x_px", 5}, {"ir_shift_y_px", 4}});
   const cv::Mat expected = straight.ir(cv::Rect(0, 0, 635, 476)), found = moved.ir(cv::Rect(5, 4, 635, 476));

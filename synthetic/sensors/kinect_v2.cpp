@@ -60,7 +60,7 @@ void fields(V& v, KinectV2Params& p) {
   v("maximum_m", p.maximum_m, 1.0, 18.0, "m", "farthest depth that is measured");
 }
 
-// Pictures of floats, one after the other in one piece of memory that is written before it is read.
+// Images of floats, one after the other in one piece of memory that is written before it is read.
 template <int planes>
 class Planes {
  public:

@@ -230,7 +230,7 @@ TEST(KinectV2, BouncedLightInASphereIsThatOfTheBooks) {
   expect_light_in_a_sphere({512, 424, 366, 366, 255.5, 211.5, {}});
 }
 
-TEST(KinectV2, BouncedLightIsThatOfTheBooksInSmallPicturesToo) {
+TEST(KinectV2, BouncedLightIsThatOfTheBooksInSmallImagesToo) {
   expect_light_in_a_sphere({307, 254, 219.6, 219.6, 153, 126.5, {}});
   expect_light_in_a_sphere({103, 85, 73.2, 73.2, 51, 42, {}});
 }

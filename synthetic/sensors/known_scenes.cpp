@@ -46,7 +46,7 @@ double true_plane_depth(const Camera& camera, int x, int y, double distance_m, d
 }
 
 SensorFrame measure_scene(const RayScene& scene, const std::string& model, const FieldValues& values, Seed seed,
-                    double depth_offset_m, const Camera& camera) {
+                          double depth_offset_m, const Camera& camera) {
   const RayTable rays(camera);
   const IrView view(scene, rays, camera, Isometry3d::Identity(), depth_offset_m);
   return SensorModel::at(model).run(view, values, seed);

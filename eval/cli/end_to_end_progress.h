@@ -1,0 +1,15 @@
+#pragma once
+#include "eval/cli/progress.h"
+#include "eval/run/scene_run.h"
+
+namespace dressform {
+
+// Progress lines of an end-to-end run: one a stage, with its time or "reused".
+EndToEndProgress end_to_end_progress(Progress& progress);
+// The same with the capture before it.
+SceneRunProgress scene_progress(Progress& progress);
+
+// The score table, what the run cost and where the report is: the last thing a run prints.
+void print_summary(const EndToEndResult& result);
+
+}  // namespace dressform

@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "eval/report/image_tools.h"
+#include "pipeline/reconstruct.h"
+#include "render/renderer.h"
+
+namespace dressform {
+
+// Images of every stage, as in the thesis's figures 3.x, in the order of the pipeline. All meshes are turned so that
+// the first sensor looks at their front.
+struct StageFigures {
+  std::string label;  // "capture", or a StageRecord's label
+  std::vector<Figure> figures;
+};
+std::vector<StageFigures> stage_figures(const Reconstruction& reconstruction, const CaptureSession& session,
+                                        Renderer& renderer);
+
+// The finished clothes: on the mannequin and on the user, front, left, back, right; and a turntable.
+std::vector<Figure> result_figures(const Reconstruction& reconstruction, Renderer& renderer);
+
+}  // namespace dressform

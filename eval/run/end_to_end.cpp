@@ -1,0 +1,159 @@
+#include "eval/run/end_to_end.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <opencv2/imgcodecs.hpp>
+
+#include "eval/evaluate.h"
+#include "eval/report/report.h"
+#include "eval/run/export.h"
+#include "eval/run/run_folder.h"
+#include "eval/run/stage_folders.h"
+#include "eval/run/truth_hash.h"
+#include "scenes/file_bytes.h"
+#include "scenes/ground_truth.h"
+#include "scenes/hash.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json to_json(const StageRecord& record) {
+  json values = json::object();
+  for (const auto& [name, value] : record.recipe.values)
+    std::visit([&, &name = name](const auto& held) { values[name] = held; }, value);
+  return {{"stage", record.label},     {"variant", record.recipe.variant},
+          {"parameters", values},      {"key", record.key},
+          {"seconds", record.seconds}, {"peak_memory_mb", record.peak_memory_mb},
+          {"reused", record.reused},   {"code_version", record.recipe.code_version}};
+}
+
+json to_json(const ReconstructionOptions& options) {
+  json values = json::object();
+  for (const auto& [stage, given] : options.values)
+    for (const auto& [name, value] : given) values[stage][name] = to_text(value);
+  return {{"variants", options.variants}, {"values", values}};
+}
+
+// Hash over everything the pipeline made: the contents of the artifacts, whatever made them.
+std::string identity_of(const Reconstruction& made) {
+  std::string text = made.calibration.content_hash() + made.naked.content_hash() + made.extracted.content_hash() +
+                     made.registration.content_hash() + made.segmentation.content_hash() + made.filled.content_hash() +
+                     made.closed.content_hash() + made.opened.content_hash() + made.textured.content_hash();
+  if (made.user) text += made.user->content_hash();
+  if (made.fitted) text += made.fitted->content_hash();
+  if (made.corrected) text += made.corrected->content_hash();
+  return hash_hex(text + code_version("eval"));
+}
+
+std::vector<std::string> with_prefix(const std::string& prefix, std::vector<std::string> names) {
+  for (auto& name : names) name = prefix + name;
+  return names;
+}
+
+// The label images, for the scorer and for people: stages/<nn>_segment/<sensor>.png.
+std::vector<std::string> write_labels(const Reconstruction& made, const std::string& folder, const fs::path& run) {
+  std::vector<std::string> files;
+  for (const auto& [sensor, labels] : made.segmentation.get().labels) {
+    const std::string name = folder + "/" + sensor + ".png";
+    std::vector<unsigned char> bytes;
+    cv::imencode(".png", labels, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+    write_file_atomically(run / name, std::string(bytes.begin(), bytes.end()));
+    files.push_back(name);
+  }
+  return files;
+}
+
+std::string segment_folder(const Reconstruction& made) {
+  for (const auto& record : made.records)
+    if (record.recipe.stage == "segment") return "stages/" + stage_folder_name(record);
+  throw std::logic_error("the pipeline has no segment stage");
+}
+
+// Runs one product of the folder with progress.
+class Steps {
+ public:
+  Steps(RunFolder& folder, const EndToEndProgress& progress) : folder_(folder), progress_(progress) {}
+  void run(const std::string& name, const std::string& identity,
+           const std::function<std::vector<std::string>()>& make) {
+    if (progress_.step) progress_.step(name);
+    const auto start = std::chrono::steady_clock::now();
+    const bool made = folder_.product(name, identity, make);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    if (progress_.step_finished) progress_.step_finished(name, made, seconds.count());
+  }
+
+ private:
+  RunFolder& folder_;
+  const EndToEndProgress& progress_;
+};
+
+std::vector<std::string> write_scores(const EndToEndRequest& request, const GroundTruth& truth) {
+  Scores scores = evaluate(read_run_outputs(request.output), truth);
+  scores.scene = request.scene;
+  scores.variant = request.variant;
+  scores.seed = request.options.seed;
+  write_file_atomically(request.output / "scores.json", scores_to_json(scores));
+  write_file_atomically(request.output / "scores.csv",
+                        scores_to_csv(scores, fmt::format("{}-{}", request.scene, request.options.seed)));
+  return {"scores.json", "scores.csv"};
+}
+
+}  // namespace
+
+EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProgress& progress) {
+  check_options(request.options);
+  const SessionSource source = open_session(request.session, request.check_session);
+  RunFolder folder(request.output);
+  folder.facts() = request.facts;
+  folder.facts()["provenance"] = provenance(request.threads);
+  folder.facts()["scene"] = request.scene;
+  folder.facts()["variant"] = request.variant;
+  folder.facts()["seed"] = request.options.seed;
+  folder.facts()["store"] = fs::absolute(request.store).lexically_normal().string();
+  folder.facts()["options"] = to_json(request.options);
+  folder.facts()["session"] = {{"path", fs::absolute(request.session).string()},
+                               {"content_hash", source.session.content_hash()},
+                               {"truth_hash", truth_hash(request.session)}};
+  ArtifactStore store(request.store);
+  const Reconstruction made = reconstruct(source, request.options, store, progress.stage);
+  folder.facts()["stages"] = json::array();
+  for (const auto& record : made.records) folder.facts()["stages"].push_back(to_json(record));
+  write_stage_folders(request.output / "stages", made.records, store);
+
+  Steps steps(folder, progress);
+  const std::string identity = identity_of(made);
+  steps.run("out", identity, [&] { return with_prefix("out/", export_reconstruction(made, request.output / "out")); });
+  steps.run("labels", made.segmentation.content_hash(),
+            [&] { return write_labels(made, segment_folder(made), request.output); });
+
+  EndToEndResult result;
+  std::optional<GroundTruth> truth;
+  const auto known_truth = [&]() -> const GroundTruth& {
+    if (!truth) truth = read_ground_truth(request.session);
+    return *truth;
+  };
+  std::string scores_hash = "none";
+  if (ground_truth_exists(request.session)) {
+    const std::string scored =
+        hash_hex(folder.product_hash("out") + folder.product_hash("labels") + truth_hash(request.session) +
+                 request.scene + request.variant + std::to_string(request.options.seed) + code_version("eval"));
+    steps.run("scores", scored, [&] { return write_scores(request, known_truth()); });
+    result.scores = scores_from_json(request.output / "scores.json");
+    scores_hash = folder.product_hash("scores");
+  }
+  steps.run("report", hash_hex(identity + scores_hash + source.session.content_hash() + code_version("render")), [&] {
+    const ReportInput input{made, source.session.get(), result.scores, result.scores ? &known_truth() : nullptr,
+                            folder.facts()};
+    return write_report(input, request.output);
+  });
+  folder.save();
+  result.report = request.output / "report.html";
+  result.records = made.records;
+  return result;
+}
+
+}  // namespace dressform

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "pipeline/reconstruct.h"
+#include "scenes/hash.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Hash over the names and bytes of a folder's files: a scan keeps its hash when only other parts of a session change,
+// so that captures of other clothes on the same mannequin share its model.
+std::string folder_hash(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const auto& name : names) text += name + " " + hash_file(folder / name) + "\n";
+  return hash_hex(text);
+}
+
+LazyArtifact<DepthScan> scan_of(const fs::path& folder, const LazyArtifact<CaptureSession>& session,
+                                const std::string& scan, const std::string& sensor) {
+  return {hash_hex(sensor + " " + folder_hash(folder / scan)),
+          [session, scan] { return session.get().scans.at(scan); }};
+}
+
+nlohmann::json read_index(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file.string(), "can't be read; expected a capture session's session.json");
+  try {
+    return nlohmann::json::parse(in);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string(), std::string("not JSON (") + error.what() + ")");
+  }
+}
+
+}  // namespace
+
+SessionSource open_session(const fs::path& folder, bool check) {
+  const fs::path at = fs::absolute(folder);
+  const LazyArtifact<CaptureSession> lazy(session_content_hash(at), [at] { return read_capture_session(at); });
+  if (check) lazy.get();
+  const auto index = read_index(at / "session.json");
+  try {
+    const auto& scans = index.at("scans");
+    if (!scans.contains("scan_naked"))
+      throw InputError((at / "session.json").string() + ": scans.scan_naked",
+                       "missing; expected the scan of the mannequin");
+    const std::string naked = scans.at("scan_naked").at("sensor");
+    SessionSource source{lazy, scan_of(at, lazy, "scan_naked", naked), {}, index.at("sensors"), naked, {}};
+    if (scans.contains("scan_user")) {
+      source.scan_user_sensor = scans.at("scan_user").at("sensor");
+      source.scan_user = scan_of(at, lazy, "scan_user", source.scan_user_sensor);
+    }
+    return source;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError((at / "session.json").string(), std::string("damaged (") + error.what() + ")");
+  }
+}
+
+}  // namespace dressform

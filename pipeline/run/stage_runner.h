@@ -1,0 +1,73 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "pipeline/reconstruct.h"
+#include "scenes/serialize.h"
+
+namespace dressform {
+
+// Runs stages through the artifact store and keeps a record of each: what is there is not made again.
+class StageRunner {
+ public:
+  StageRunner(const ReconstructionOptions& options, ArtifactStore& store, StageProgress progress)
+      : options_(options), store_(store), progress_(std::move(progress)) {}
+
+  // Runs (or finds) the chosen variant of a stage. `label` tells two runs of one stage apart ("fuse_naked").
+  template <class StageType, class... In>
+  LazyArtifact<typename StageType::Output> run(const std::string& label, const LazyArtifact<In>&... inputs) {
+    using Out = typename StageType::Output;
+    const auto& entry = chosen<StageType>();
+    const Recipe recipe = recipe_of<StageType>(entry, {inputs.content_hash()...});
+    auto artifact = store_.find(recipe);
+    begin(label, recipe, artifact.has_value());
+    std::optional<Out> value;
+    if (!artifact) {
+      reset_peak_memory();
+      const auto start = std::chrono::steady_clock::now();
+      value = entry.run(inputs.get()..., recipe.values, recipe.seed);
+      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+      artifact = store_.save(recipe, to_bytes(*value), seconds.count(), peak_memory_mb());
+    }
+    end(*artifact);
+    ArtifactStore& store = store_;
+    LazyArtifact<Out> made(artifact->content_hash,
+                           [&store, found = *artifact] { return from_bytes<Out>(store.load(found)); });
+    if (value) made.keep(std::move(*value));
+    return made;
+  }
+
+  const std::vector<StageRecord>& records() const { return records_; }
+
+ private:
+  template <class StageType>
+  const typename StageType::Entry& chosen() const {
+    const auto given = options_.variants.find(StageType::name());
+    return StageType::at(given == options_.variants.end() ? StageType::default_variant() : given->second);
+  }
+
+  template <class StageType>
+  Recipe recipe_of(const typename StageType::Entry& entry, std::vector<std::string> inputs) const {
+    const auto given = options_.values.find(StageType::name());
+    const auto values = entry.complete(given == options_.values.end() ? FieldValues{} : given->second);
+    return {StageType::name(), entry.name, code_version(StageType::name()), values, options_.seed, std::move(inputs)};
+  }
+
+  void begin(const std::string& label, const Recipe& recipe, bool reused) {
+    records_.push_back({static_cast<int>(records_.size()) + 1, label, recipe, recipe.key(), 0, 0, reused});
+    if (progress_) progress_(records_.back(), false);
+  }
+  void end(const ArtifactRecord& artifact) {
+    records_.back().seconds = artifact.seconds;
+    records_.back().peak_memory_mb = artifact.peak_memory_mb;
+    if (progress_) progress_(records_.back(), true);
+  }
+
+  const ReconstructionOptions& options_;
+  ArtifactStore& store_;
+  StageProgress progress_;
+  std::vector<StageRecord> records_;
+};
+
+}  // namespace dressform
