@@ -85,8 +85,6 @@ int calibrate_session(const CalibrateOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_calibrate_command(CLI::App& app) {
   auto options = std::make_shared<CalibrateOptions>();
   auto* command = app.add_subcommand("calibrate", "Calibrate the sensors of a session from its boards");
@@ -98,4 +96,7 @@ Command add_calibrate_command(CLI::App& app) {
   return [options] { return calibrate_session(*options); };
 }
 
+const RegisteredCommand registered_calibrate{50, add_calibrate_command};
+
+}  // namespace
 }  // namespace dressform

@@ -1,22 +1,22 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 namespace dressform {
 
 // A command adds itself to the program and returns what runs when it is chosen: a function that gives the exit code.
 using Command = std::function<int()>;
+using AddCommand = Command (*)(CLI::App&);
 
-Command add_run_command(CLI::App& app);
-Command add_synthesize_command(CLI::App& app);
-Command add_import_command(CLI::App& app);
-Command add_inspect_command(CLI::App& app);
-Command add_reconstruct_command(CLI::App& app);
-Command add_calibrate_command(CLI::App& app);
-Command add_render_command(CLI::App& app);
-Command add_score_command(CLI::App& app);
-Command add_report_command(CLI::App& app);
-Command add_variants_command(CLI::App& app);
-Command add_gate_command(CLI::App& app);
+// A command is one .cpp file that registers itself:
+//   const RegisteredCommand registered_run{10, add_run_command};
+// `place` orders the commands in --help.
+struct RegisteredCommand {
+  RegisteredCommand(int place, AddCommand add);
+};
+
+// All commands in the order of --help.
+std::vector<AddCommand> registered_commands();
 
 }  // namespace dressform

@@ -98,8 +98,6 @@ int accept(const GateOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_gate_command(CLI::App& app) {
   auto options = std::make_shared<GateOptions>();
   auto* command = app.add_subcommand("gate", "Compare runs with the accepted references in golden/");
@@ -123,4 +121,7 @@ Command add_gate_command(CLI::App& app) {
   return [options, checking] { return checking->parsed() ? check(*options) : accept(*options); };
 }
 
+const RegisteredCommand registered_gate{110, add_gate_command};
+
+}  // namespace
 }  // namespace dressform

@@ -82,8 +82,6 @@ int import_session(const ImportOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_import_command(CLI::App& app) {
   auto options = std::make_shared<ImportOptions>();
   ImportRequest& request = options->request;
@@ -124,4 +122,7 @@ Command add_import_command(CLI::App& app) {
   return [options] { return import_session(*options); };
 }
 
+const RegisteredCommand registered_import{30, add_import_command};
+
+}  // namespace
 }  // namespace dressform

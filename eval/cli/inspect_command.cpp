@@ -59,8 +59,6 @@ int inspect(const InspectOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_inspect_command(CLI::App& app) {
   auto options = std::make_shared<InspectOptions>();
   auto* command = app.add_subcommand("inspect", "Images and noise statistics of a session or of a sensor model");
@@ -78,4 +76,7 @@ Command add_inspect_command(CLI::App& app) {
   return [options] { return inspect(*options); };
 }
 
+const RegisteredCommand registered_inspect{60, add_inspect_command};
+
+}  // namespace
 }  // namespace dressform

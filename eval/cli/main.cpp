@@ -25,9 +25,7 @@ int run_program(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   std::vector<std::pair<CLI::App*, Command>> commands;
-  for (const auto& add : {add_run_command, add_synthesize_command, add_import_command, add_reconstruct_command,
-                          add_calibrate_command, add_inspect_command, add_render_command, add_score_command,
-                          add_report_command, add_variants_command, add_gate_command}) {
+  for (const AddCommand add : registered_commands()) {
     Command command = add(app);
     commands.push_back({app.get_subcommands({}).back(), std::move(command)});
   }

@@ -25,8 +25,6 @@ int reconstruct_session(ReconstructOptions options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_reconstruct_command(CLI::App& app) {
   auto options = std::make_shared<ReconstructOptions>();
   auto* command = app.add_subcommand("reconstruct", "From a capture session on disk to clothes, scores and report");
@@ -39,4 +37,7 @@ Command add_reconstruct_command(CLI::App& app) {
   return [options] { return reconstruct_session(*options); };
 }
 
+const RegisteredCommand registered_reconstruct{40, add_reconstruct_command};
+
+}  // namespace
 }  // namespace dressform

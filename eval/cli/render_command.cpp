@@ -66,8 +66,6 @@ int render_meshes(const RenderOptionsCli& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_render_command(CLI::App& app) {
   auto options = std::make_shared<RenderOptionsCli>();
   auto* command = app.add_subcommand("render", "Images of meshes (OBJ, PLY, GLB), off screen");
@@ -82,4 +80,7 @@ Command add_render_command(CLI::App& app) {
   return [options] { return render_meshes(*options); };
 }
 
+const RegisteredCommand registered_render{70, add_render_command};
+
+}  // namespace
 }  // namespace dressform

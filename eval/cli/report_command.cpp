@@ -52,8 +52,6 @@ int report_run(const ReportOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
   auto* command = app.add_subcommand("report", "Write a run's report and images again");
@@ -63,4 +61,7 @@ Command add_report_command(CLI::App& app) {
   return [options] { return report_run(*options); };
 }
 
+const RegisteredCommand registered_report{90, add_report_command};
+
+}  // namespace
 }  // namespace dressform

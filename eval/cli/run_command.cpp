@@ -24,8 +24,6 @@ int run_scene_file(RunOptions options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_run_command(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   auto* command = app.add_subcommand("run", "The whole pipeline: capture a scene, reconstruct, score, report");
@@ -39,4 +37,7 @@ Command add_run_command(CLI::App& app) {
   return [options] { return run_scene_file(*options); };
 }
 
+const RegisteredCommand registered_run{10, add_run_command};
+
+}  // namespace
 }  // namespace dressform

@@ -54,8 +54,6 @@ int score_run(const ScoreOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_score_command(CLI::App& app) {
   auto options = std::make_shared<ScoreOptions>();
   auto* command = app.add_subcommand("score", "Score the out/ of a run folder against a session's ground truth");
@@ -67,4 +65,7 @@ Command add_score_command(CLI::App& app) {
   return [options] { return score_run(*options); };
 }
 
+const RegisteredCommand registered_score{80, add_score_command};
+
+}  // namespace
 }  // namespace dressform

@@ -33,8 +33,6 @@ int synthesize_scene(const SynthesizeOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_synthesize_command(CLI::App& app) {
   auto options = std::make_shared<SynthesizeOptions>();
   auto* command = app.add_subcommand("synthesize", "Capture a scene: a capture session with its ground truth");
@@ -47,4 +45,7 @@ Command add_synthesize_command(CLI::App& app) {
   return [options] { return synthesize_scene(*options); };
 }
 
+const RegisteredCommand registered_synthesize{20, add_synthesize_command};
+
+}  // namespace
 }  // namespace dressform

@@ -50,8 +50,6 @@ int print_variants(const std::string& only) {
   return kSuccess;
 }
 
-}  // namespace
-
 Command add_variants_command(CLI::App& app) {
   auto stage = std::make_shared<std::string>();
   auto* command = app.add_subcommand("variants", "List the stages, their variants and parameters");
@@ -60,4 +58,7 @@ Command add_variants_command(CLI::App& app) {
   return [stage] { return print_variants(*stage); };
 }
 
+const RegisteredCommand registered_variants{100, add_variants_command};
+
+}  // namespace
 }  // namespace dressform

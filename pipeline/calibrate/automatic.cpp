@@ -44,7 +44,7 @@ Calibrated automatic(const CaptureSession& session, const AutomaticParams& param
   return result;
 }
 
-const Calibrate::Variant variant{"automatic", automatic};
+const Calibrate::Variant automatic_variant{"automatic", automatic};
 
 }  // namespace
 }  // namespace dressform

@@ -16,7 +16,7 @@ Calibrated bundle(const CaptureSession& session, const BundleParams& params) {
   return calibrate_from_boards(session, params.boards, by_bundle);
 }
 
-const Calibrate::Variant variant{"bundle", bundle};
+const Calibrate::Variant bundle_variant{"bundle", bundle};
 
 }  // namespace
 

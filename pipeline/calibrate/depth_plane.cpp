@@ -18,7 +18,7 @@ Calibrated depth_plane(const CaptureSession& session, const DepthPlaneParams& pa
   return calibrate_from_boards(session, params.boards, by_depth_plane);
 }
 
-const Calibrate::Variant variant{"depth_plane", depth_plane};
+const Calibrate::Variant depth_plane_variant{"depth_plane", depth_plane};
 
 }  // namespace
 

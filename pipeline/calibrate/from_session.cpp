@@ -14,7 +14,7 @@ Calibrated from_session(const CaptureSession& session, const FromSessionParams&)
   return {*session.calibration, {}, {}};
 }
 
-const Calibrate::Variant variant{"from_session", from_session};
+const Calibrate::Variant from_session_variant{"from_session", from_session};
 
 }  // namespace
 }  // namespace dressform

@@ -16,7 +16,7 @@ Calibrated sb_distortion(const CaptureSession& session, const SbDistortionParams
   return calibrate_from_boards(session, params.boards, by_sb_distortion);
 }
 
-const Calibrate::Variant variant{"sb_distortion", sb_distortion};
+const Calibrate::Variant sb_distortion_variant{"sb_distortion", sb_distortion};
 
 }  // namespace
 

@@ -17,7 +17,7 @@ Calibrated thesis(const CaptureSession& session, const ThesisParams& params) {
   return calibrate_from_boards(session, params.boards, by_thesis);
 }
 
-const Calibrate::Variant variant{"thesis", thesis};
+const Calibrate::Variant thesis_variant{"thesis", thesis};
 
 }  // namespace
 

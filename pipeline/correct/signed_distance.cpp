@@ -29,7 +29,7 @@ CorrectedGarments signed_distance(const BodyModel& user, const FittedGarments& f
   });
 }
 
-const Correct::Variant variant{"signed_distance", signed_distance};
+const Correct::Variant signed_distance_variant{"signed_distance", signed_distance};
 
 }  // namespace
 }  // namespace dressform

@@ -36,7 +36,7 @@ CorrectedGarments signed_distance_smooth(const BodyModel& user, const FittedGarm
   return result;
 }
 
-const Correct::Variant variant{"signed_distance_smooth", signed_distance_smooth};
+const Correct::Variant signed_distance_smooth_variant{"signed_distance_smooth", signed_distance_smooth};
 
 }  // namespace
 }  // namespace dressform

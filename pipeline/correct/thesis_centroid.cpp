@@ -52,7 +52,7 @@ CorrectedGarments thesis_centroid(const BodyModel& user, const FittedGarments& f
   });
 }
 
-const Correct::Variant variant{"thesis_centroid", thesis_centroid};
+const Correct::Variant thesis_centroid_variant{"thesis_centroid", thesis_centroid};
 
 }  // namespace
 }  // namespace dressform

@@ -160,7 +160,7 @@ ExtractedViews cluster(const CaptureSession& session, const Calibration& calibra
   return result;
 }
 
-const Extract::Variant variant{"cluster", cluster};
+const Extract::Variant cluster_variant{"cluster", cluster};
 
 }  // namespace
 }  // namespace dressform

@@ -107,7 +107,7 @@ FilledViews reproject(const CaptureSession& session, const Calibration& calibrat
                     [&](const std::vector<GarmentView>& views, std::size_t k) { return paint(views, k, params); });
 }
 
-const Fill::Variant variant{"reproject", reproject};
+const Fill::Variant reproject_variant{"reproject", reproject};
 
 }  // namespace
 }  // namespace dressform

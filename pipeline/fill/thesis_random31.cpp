@@ -80,7 +80,7 @@ FilledViews thesis_random31(const CaptureSession& session, const Calibration& ca
       [&](const std::vector<GarmentView>& views, std::size_t k) { return paint(views, k, params.block_px, seed); });
 }
 
-const Fill::Variant variant{"thesis_random31", thesis_random31};
+const Fill::Variant thesis_random31_variant{"thesis_random31", thesis_random31};
 
 }  // namespace
 }  // namespace dressform

@@ -100,7 +100,7 @@ FittedGarments rbf(const BodyModel& naked_model, const BodyModel& user_model, co
   return result;
 }
 
-const Fit::Variant variant{"rbf", rbf};
+const Fit::Variant rbf_variant{"rbf", rbf};
 
 }  // namespace
 }  // namespace dressform

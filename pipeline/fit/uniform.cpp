@@ -35,7 +35,7 @@ FittedGarments uniform(const BodyModel& naked_model, const BodyModel& user_model
   return result;
 }
 
-const Fit::Variant variant{"uniform", uniform};
+const Fit::Variant uniform_variant{"uniform", uniform};
 
 }  // namespace
 }  // namespace dressform

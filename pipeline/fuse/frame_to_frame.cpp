@@ -20,7 +20,7 @@ BodyModel frame_to_frame(const DepthScan& scan, const SensorCalibration& calibra
   return fuse_tracked(scan, frames, track_odometry(frames, projector), calibration, params.scan);
 }
 
-const Fuse::Variant variant{"frame_to_frame", frame_to_frame};
+const Fuse::Variant frame_to_frame_variant{"frame_to_frame", frame_to_frame};
 
 }  // namespace
 }  // namespace dressform

@@ -32,7 +32,7 @@ BodyModel pose_graph(const DepthScan& scan, const SensorCalibration& calibration
   return fuse_tracked(scan, frames, track, calibration, params.scan);
 }
 
-const Fuse::Variant variant{"pose_graph", pose_graph};
+const Fuse::Variant pose_graph_variant{"pose_graph", pose_graph};
 
 }  // namespace
 }  // namespace dressform

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "pipeline/multipath/test_images.h"
+#include "pipeline/testing/multipath_images.h"
 
 namespace dressform {
 namespace {

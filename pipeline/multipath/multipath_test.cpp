@@ -9,7 +9,7 @@
 #include "pipeline/multipath/bounce_kernel.h"
 #include "pipeline/multipath/bounce_pixels.h"
 #include "pipeline/multipath/floor_evidence.h"
-#include "pipeline/multipath/test_images.h"
+#include "pipeline/testing/multipath_images.h"
 #include "pipeline/testing/test_scene.h"
 
 namespace dressform {

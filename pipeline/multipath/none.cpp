@@ -10,7 +10,7 @@ void fields(V&, NoneParams&) {}
 // Depth is taken as it was measured.
 Multipath none(const CaptureSession&, const Calibration&, const NoneParams&) { return {}; }
 
-const EstimateMultipath::Variant variant{"none", none};
+const EstimateMultipath::Variant none_variant{"none", none};
 
 }  // namespace
 }  // namespace dressform

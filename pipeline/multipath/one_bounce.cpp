@@ -123,7 +123,7 @@ Multipath one_bounce(const CaptureSession& session, const Calibration& calibrati
   return result;
 }
 
-const EstimateMultipath::Variant variant{"one_bounce", one_bounce};
+const EstimateMultipath::Variant one_bounce_variant{"one_bounce", one_bounce};
 
 }  // namespace
 }  // namespace dressform

@@ -342,7 +342,7 @@ OpenGarments limb_spline(const CaptureSession& session, const Calibration& calib
   return opened;
 }
 
-const Open::Variant variant{"limb_spline", limb_spline};
+const Open::Variant limb_spline_variant{"limb_spline", limb_spline};
 
 }  // namespace
 }  // namespace dressform

@@ -114,7 +114,7 @@ Registration joint(const CaptureSession& session, const Calibration& calibration
   return registration_of(views, alignments, accepted);
 }
 
-const Register::Variant variant{"joint", joint};
+const Register::Variant joint_variant{"joint", joint};
 
 }  // namespace
 }  // namespace dressform

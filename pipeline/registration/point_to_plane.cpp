@@ -38,7 +38,7 @@ Registration point_to_plane(const CaptureSession& session, const Calibration& ca
   return registration_of(views, alignments, accepted);
 }
 
-const Register::Variant variant{"point_to_plane", point_to_plane};
+const Register::Variant point_to_plane_variant{"point_to_plane", point_to_plane};
 
 }  // namespace
 }  // namespace dressform

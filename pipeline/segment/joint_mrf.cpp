@@ -122,7 +122,7 @@ Segmentation joint_mrf(const CaptureSession& session, const Calibration& calibra
   return result;
 }
 
-const Segment::Variant variant{"joint_mrf", joint_mrf};
+const Segment::Variant joint_mrf_variant{"joint_mrf", joint_mrf};
 
 }  // namespace
 }  // namespace dressform

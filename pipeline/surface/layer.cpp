@@ -246,7 +246,7 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
   return closed;
 }
 
-const Surface::Variant variant{"layer", layer};
+const Surface::Variant layer_variant{"layer", layer};
 
 }  // namespace
 }  // namespace dressform

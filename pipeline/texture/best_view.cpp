@@ -35,7 +35,7 @@ TexturedGarments best_view(const CaptureSession& session, const Calibration& cal
   return textured(garments, choose, {0, 0}, params.atlas, params.view);
 }
 
-const Texture::Variant variant{"best_view", best_view};
+const Texture::Variant best_view_variant{"best_view", best_view};
 
 }  // namespace
 }  // namespace dressform

@@ -63,7 +63,7 @@ TexturedGarments levelled(const CaptureSession& session, const Calibration& cali
   return textured(garments, choose, params.blend, params.atlas, params.view);
 }
 
-const Texture::Variant variant{"levelled", levelled};
+const Texture::Variant levelled_variant{"levelled", levelled};
 
 }  // namespace
 }  // namespace dressform

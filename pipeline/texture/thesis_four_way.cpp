@@ -40,7 +40,7 @@ TexturedGarments thesis_four_way(const CaptureSession& session, const Calibratio
   return textured(garments, choose, {0, 0}, params.atlas, view);
 }
 
-const Texture::Variant variant{"thesis_four_way", thesis_four_way};
+const Texture::Variant thesis_four_way_variant{"thesis_four_way", thesis_four_way};
 
 }  // namespace
 }  // namespace dressform

@@ -175,7 +175,7 @@ Recording iai_kinect2(const fs::path& folder, const RecordingUse& use, const Iai
   return recording;
 }
 
-const Importer::Variant variant{"iai_kinect2", iai_kinect2};
+const Importer::Variant iai_kinect2_variant{"iai_kinect2", iai_kinect2};
 
 }  // namespace
 }  // namespace dressform

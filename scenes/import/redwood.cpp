@@ -69,7 +69,7 @@ Recording redwood(const fs::path& folder, const RecordingUse& use, const StreamP
   return recording;
 }
 
-const Importer::Variant variant{"redwood", redwood};
+const Importer::Variant redwood_variant{"redwood", redwood};
 
 }  // namespace
 }  // namespace dressform

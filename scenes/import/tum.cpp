@@ -71,7 +71,7 @@ Recording tum(const fs::path& folder, const RecordingUse& use, const TumParams& 
   return recording;
 }
 
-const Importer::Variant variant{"tum", tum};
+const Importer::Variant tum_variant{"tum", tum};
 
 }  // namespace
 }  // namespace dressform

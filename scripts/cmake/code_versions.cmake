@@ -1,6 +1,5 @@
 # The code version of every stage, derived at build time from all that its files include and link (scripts/code_versions).
 # Written to generated/code_versions.inc as {"stage", "hash"}, lines.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 file(GLOB_RECURSE versioned CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scenes/*.h ${CMAKE_SOURCE_DIR}/scenes/*.cpp
      ${CMAKE_SOURCE_DIR}/pipeline/*.h ${CMAKE_SOURCE_DIR}/pipeline/*.cpp
      ${CMAKE_SOURCE_DIR}/synthetic/*.h ${CMAKE_SOURCE_DIR}/synthetic/*.cpp

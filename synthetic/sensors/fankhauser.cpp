@@ -225,7 +225,7 @@ SensorFrame fankhauser(const IrView& view, const FankhauserParams& params, Seed 
   return Model(view, params, seed).frame();
 }
 
-const SensorModel::Variant variant{"fankhauser", fankhauser};
+const SensorModel::Variant fankhauser_variant{"fankhauser", fankhauser};
 
 }  // namespace
 }  // namespace dressform

@@ -34,7 +34,7 @@ SensorFrame ideal(const IrView& view, const IdealParams& params) {
   return frame;
 }
 
-const SensorModel::Variant variant{"ideal", ideal};
+const SensorModel::Variant ideal_variant{"ideal", ideal};
 
 }  // namespace
 }  // namespace dressform

@@ -231,7 +231,7 @@ SensorFrame kinect_v1(const IrView& view, const KinectV1Params& params, Seed see
   return KinectV1(view, params, seed).frame();
 }
 
-const SensorModel::Variant variant{"kinect_v1", kinect_v1};
+const SensorModel::Variant kinect_v1_variant{"kinect_v1", kinect_v1};
 
 }  // namespace
 }  // namespace dressform

@@ -331,7 +331,7 @@ SensorFrame kinect_v2(const IrView& view, const KinectV2Params& params, Seed see
   return KinectV2(view, params, seed).frame();
 }
 
-const SensorModel::Variant variant{"kinect_v2", kinect_v2};
+const SensorModel::Variant kinect_v2_variant{"kinect_v2", kinect_v2};
 
 }  // namespace
 }  // namespace dressform
