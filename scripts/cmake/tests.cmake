@@ -59,3 +59,7 @@ if(NOT DRESSFORM_UNITY)
 endif()
 add_test(NAME house COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/house_test ${objects})
 set_tests_properties(house PROPERTIES LABELS unit)
+# Installs the build, runs the installed program, and builds the example that uses find_package(dressform).
+add_test(NAME package COMMAND ${CMAKE_SOURCE_DIR}/scripts/package_test ${CMAKE_BINARY_DIR})
+set_tests_properties(package PROPERTIES LABELS unit TIMEOUT 600)
+add_dependencies(eval_test dressform_archive)
