@@ -69,10 +69,10 @@ cv::Mat index_colors(const cv::Mat& index) {
 Figure depth_figure(const std::string& name, const std::string& title, const std::vector<std::string>& titles,
                     const std::vector<const cv::Mat*>& images, int columns, int height) {
   const Range range = range_of(images);
-  std::vector<Titled> images;
-  for (std::size_t i = 0; i < images.size(); ++i) images.push_back({titles[i], depth_colors(*images[i], range)});
+  std::vector<Titled> colored;
+  for (std::size_t i = 0; i < images.size(); ++i) colored.push_back({titles[i], depth_colors(*images[i], range)});
   return {name, title, "Metres along the axis; black: no depth.",
-          with_color_bar(sheet(images, columns, height), range.from_m, range.to_m, "m", "depth")};
+          with_color_bar(sheet(colored, columns, height), range.from_m, range.to_m, "m", "depth")};
 }
 
 InspectionSection shots_section(const std::string& name, const std::vector<std::string>& sensors,

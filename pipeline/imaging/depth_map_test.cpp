@@ -13,7 +13,7 @@ using test_scene::Figure;
 
 SensorCalibration sensor(double offset_m = 0) { return test_scene::kinect(0.25, offset_m); }
 
-cv::Mat image(const Figure& figure, const SensorCalibration& calibration, double noise) {
+cv::Mat depth_of(const Figure& figure, const SensorCalibration& calibration, double noise) {
   const Isometry3d pose = test_scene::looking_at({0, 1.15, 2}, {0, 0.95, 0});
   return test_scene::depth_image(figure, calibration, normalized_grid(calibration.ir), pose, noise, 5);
 }
@@ -67,7 +67,7 @@ TEST(DepthMap, SphereNormalsPointOutwards) {
 
 TEST(DepthMap, FlyingPixelsAndEdgesAreDropped) {
   const SensorCalibration calibration = sensor();
-  cv::Mat image = image(test_scene::standing_figure(), calibration, 0);
+  cv::Mat image = depth_of(test_scene::standing_figure(), calibration, 0);
   const int x = 64, y = 95;              // in front of the floor
   image.at<std::uint16_t>(y, x) = 1500;  // in mid air
   const cv::Mat clean = clean_depth(image, calibration, {});
