@@ -36,7 +36,9 @@ LazyArtifact<CaptureSession> corrected(const LazyArtifact<CaptureSession>& sessi
                                        const LazyArtifact<Multipath>& multipath) {
   if (multipath.get().shots.factor == 0) return session;
   const auto& known = multipath.get();
-  return {corrected_hash(session.content_hash(), calibration.content_hash(), {known.signal_counts, known.shots.factor}),
+  return {corrected_hash(session.content_hash(), calibration.content_hash(),
+                         {known.signal_counts, known.infrared_scaled ? 1.0 : 0.0, known.floor_albedo,
+                          known.other_albedo, known.shots.factor}),
           [session, calibration, multipath] {
             return without_multipath(session.get(), calibration.get(), multipath.get());
           }};
@@ -55,6 +57,37 @@ LazyArtifact<DepthScan> corrected(const LazyArtifact<DepthScan>& scan, const Laz
           }};
 }
 
+// A body with its landmarks, as the stages are given it.
+LazyArtifact<KnownBody> with_landmarks(const LazyArtifact<BodyModel>& model, const LazyArtifact<Landmarks>& landmarks) {
+  return {hash_hex(model.content_hash() + "/" + landmarks.content_hash()), [model, landmarks] {
+            return KnownBody{model.get().body, landmarks.get()};
+          }};
+}
+
+// Which way the mannequin faces, by the rig; the user, by the mannequin.
+LazyArtifact<FacingClues> facing_by_rig(const LazyArtifact<CaptureSession>& session,
+                                        const LazyArtifact<Registration>& registration) {
+  return {hash_hex(session.content_hash() + "/" + registration.content_hash() + "/facing"), [session, registration] {
+            return FacingClues{front_from_rig(session.get().prior, registration.get()), {}};
+          }};
+}
+
+// What garments there are, as segment found them; and as they lie on the mannequin once they are open.
+LazyArtifact<GarmentLayouts> layouts_of(const LazyArtifact<Segmentation>& segmentation) {
+  return {hash_hex(segmentation.content_hash() + "/garments"), [segmentation] { return segmentation.get().garments; }};
+}
+LazyArtifact<GarmentLayouts> layouts_of(const LazyArtifact<OpenGarments>& opened) {
+  return {hash_hex(opened.content_hash() + "/garments"), [opened] {
+            GarmentLayouts layouts;
+            for (const auto& [name, garment] : opened.get().garments) layouts[name] = garment.layout;
+            return layouts;
+          }};
+}
+
+LazyArtifact<FacingClues> facing_like(const LazyArtifact<KnownBody>& known) {
+  return {hash_hex(known.content_hash() + "/facing"), [known] { return FacingClues{{}, known.get()}; }};
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
@@ -71,20 +104,26 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
   const auto naked = runner.run<Fuse>("fuse_naked", scan_naked, scanner);
   const auto extracted = runner.run<Extract>("extract", session, calibration, naked);
   const auto registration = runner.run<Register>("registration", session, calibration, naked, extracted);
-  const auto segmentation = runner.run<Segment>("segment", session, calibration, naked, extracted, registration);
-  const auto filled = runner.run<Fill>("fill", session, calibration, naked, registration, segmentation);
-  const auto closed = runner.run<Surface>("surface", session, calibration, naked, registration, filled);
-  const auto opened = runner.run<Open>("open", session, calibration, naked, registration, segmentation, closed);
+  const auto landmarks =
+      runner.run<FindLandmarks>("landmarks_naked", naked, facing_by_rig(source.session, registration));
+  const auto body = with_landmarks(naked, landmarks);
+  const auto segmentation = runner.run<Segment>("segment", session, calibration, body, extracted, registration);
+  const auto filled = runner.run<Fill>("fill", session, calibration, body, registration, segmentation);
+  const auto closed =
+      runner.run<Surface>("surface", session, calibration, body, registration, filled, layouts_of(segmentation));
+  const auto opened = runner.run<Open>("open", session, calibration, body, registration, segmentation, closed);
   const auto textured = runner.run<Texture>("texture", session, calibration, naked, registration, filled, opened);
-  Reconstruction result{
-      source.sensors, calibrated, calibration, multipath, naked, extracted, registration, segmentation,
-      filled,         closed,     opened,      textured,  {},    {},        {},           {}};
+  Reconstruction result{source.sensors, calibrated, calibration,  multipath, naked,  extracted,
+                        registration,   landmarks,  segmentation, filled,    closed, opened,
+                        textured,       {},         {},           {},        {},     {}};
   if (source.scan_user) {
     const auto user_scanner = calibration_of(calibration, source.scan_user_sensor);
     result.user =
         runner.run<Fuse>("fuse_user", corrected(*source.scan_user, user_scanner, multipath, "scan_user"), user_scanner);
-    result.fitted = runner.run<Fit>("fit", naked, *result.user, textured);
-    result.corrected = runner.run<Correct>("correct", *result.user, *result.fitted);
+    result.user_landmarks = runner.run<FindLandmarks>("landmarks_user", *result.user, facing_like(body));
+    const auto user = with_landmarks(*result.user, *result.user_landmarks);
+    result.fitted = runner.run<Fit>("fit", body, user, textured, layouts_of(opened));
+    result.corrected = runner.run<Correct>("correct", user, *result.fitted);
   }
   result.records = runner.records();
   return result;

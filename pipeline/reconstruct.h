@@ -8,6 +8,7 @@
 
 #include "pipeline/calibrate/calibrate.h"
 #include "pipeline/correct/correct.h"
+#include "pipeline/landmarks/landmarks.h"
 #include "pipeline/multipath/multipath.h"
 #include "pipeline/run/artifact_store.h"
 #include "pipeline/run/lazy_artifact.h"
@@ -53,12 +54,14 @@ struct Reconstruction {
   LazyArtifact<BodyModel> naked;
   LazyArtifact<ExtractedViews> extracted;
   LazyArtifact<Registration> registration;
+  LazyArtifact<Landmarks> landmarks;  // of the naked body
   LazyArtifact<Segmentation> segmentation;
   LazyArtifact<FilledViews> filled;
   LazyArtifact<ClosedGarments> closed;
   LazyArtifact<OpenGarments> opened;
   LazyArtifact<TexturedGarments> textured;
   std::optional<LazyArtifact<BodyModel>> user;
+  std::optional<LazyArtifact<Landmarks>> user_landmarks;
   std::optional<LazyArtifact<FittedGarments>> fitted;
   std::optional<LazyArtifact<CorrectedGarments>> corrected;
   std::vector<StageRecord> records;

@@ -1,6 +1,7 @@
 #include "scenes/calibration_json.h"
 
 #include "scenes/session_layout.h"
+#include "scenes/session_limits.h"
 
 namespace dressform {
 namespace {
@@ -9,11 +10,12 @@ SensorCalibration read_sensor(const JsonValue& value) {
   SensorCalibration sensor;
   sensor.ir = value.at("ir").camera();
   if (value.has("model")) sensor.model = value.at("model").text();
-  if (value.has("depth_offset_m")) sensor.depth_offset_m = value.at("depth_offset_m").number(-1, 1);
+  if (value.has("depth_offset_m")) sensor.depth_offset_m = value.at("depth_offset_m").number();
   if (value.has("color")) {  // a bare depth scanner has none
     sensor.color = value.at("color").camera();
     sensor.color_from_ir = value.at("color_from_ir").rigid();
   }
+  if (const auto found = problem_with(sensor)) value.at(found->field).fail(found->problem);
   return sensor;
 }
 

@@ -1,14 +1,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <deque>
 #include <functional>
-#include <set>
+#include <mutex>
 
 #include "scenes/calibration_json.h"
 #include "scenes/capture_session.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
+#include "scenes/session_depth.h"
 #include "scenes/session_layout.h"
+#include "scenes/session_limits.h"
 
 namespace dressform {
 namespace {
@@ -31,6 +34,13 @@ std::vector<std::string> safe_names(const JsonValue& value) {
   }
   return names;
 }
+
+// Depth images that are judged together: those of one shot or scan.
+struct DepthGroup {
+  fs::path where;
+  DepthTally tally;
+  std::mutex mutex;
+};
 
 // Reads one session: first all that JSON says, which lists the images to read, then the images side by side.
 class Reader {
@@ -90,7 +100,9 @@ class Reader {
       prior.world_from_sensor[name] = poses.at(name).rigid();
     }
     prior.rotation_sigma_deg = file.at("prior_sigma").at("rotation_deg").number(0, 180);
-    prior.translation_sigma_m = file.at("prior_sigma").at("translation_m").number(0, 100);
+    prior.translation_sigma_m = file.at("prior_sigma").at("translation_m").number(0, 1e6);
+    if (const auto found = problem_with_prior(prior))
+      (found->field.empty() ? poses : poses.at(found->field)).fail(found->problem);
     session_.prior = prior;
   }
 
@@ -101,8 +113,8 @@ class Reader {
       const fs::path folder = fs::path(which) / sensor;
       Shot& shot = result[sensor];
       if (has_color(sensor)) image(color_file(folder), kColorImage, shot.color, size_of(sensor, true));
-      image(folder / "depth.png", kDepthImage, shot.depth_mm, size_of(sensor, false));
-      image(folder / "ir.png", kDepthImage, shot.ir, size_of(sensor, false));
+      depth(folder / "depth.png", shot.depth_mm, size_of(sensor, false), &group(folder / "depth.png"));
+      if (fs::exists(inside(folder / "ir.png"))) image(folder / "ir.png", kDepthImage, shot.ir, size_of(sensor, false));
       if (fs::exists(inside(folder / "body_index.png")))
         image(folder / "body_index.png", kIndexImage, shot.body_index, size_of(sensor, false));
       if (fs::exists(inside(folder / "skeleton.json"))) shot.skeleton = read_skeleton(folder / "skeleton.json");
@@ -147,10 +159,11 @@ class Reader {
       scan.sensor = safe_name(entry.at("sensor"));
       if (session_.calibration && !session_.calibration->sensors.count(scan.sensor))
         entry.at("sensor").fail("found \"" + scan.sensor + "\"; expected a sensor of calibration.json");
-      scan.depth_mm.resize(entry.at("frames").whole(1, 10000));
+      scan.depth_mm.resize(entry.at("frames").whole(1, session_layout::kMostFrames));
+      DepthGroup& frames = group(name);
       for (std::size_t i = 0; i < scan.depth_mm.size(); ++i)
-        image(fs::path(name) / session_layout::depth_frame(static_cast<int>(i)), kDepthImage, scan.depth_mm[i],
-              size_of(scan.sensor, false));
+        depth(fs::path(name) / session_layout::depth_frame(static_cast<int>(i)), scan.depth_mm[i],
+              size_of(scan.sensor, false), &frames);
       check_no_further_frames(entry.at("frames"), name, scan.depth_mm.size());
     }
   }
@@ -174,21 +187,50 @@ class Reader {
     Boards& boards = session_.boards.emplace();
     boards.inner_corners_x = corners[0].whole(2, 200);
     boards.inner_corners_y = corners[1].whole(2, 200);
-    boards.square_m = value.at("square_m").number(1e-4, 10);
-    const int views = value.at("views").whole(1, 100);
+    boards.square_m = value.at("square_m").number();
+    const std::string problem = problem_with_board(boards.inner_corners_x, boards.inner_corners_y, boards.square_m);
+    if (!problem.empty()) value.at("square_m").fail(problem);
+    const int views = value.at("views").whole(1, session_layout::kMostFrames);
     for (const auto& sensor : session_.sensors) boards.shots[sensor].resize(views);
     for (auto& [sensor, shots] : boards.shots)
       for (int i = 0; i < views; ++i) {
         const fs::path folder = fs::path("boards") / sensor;
         image(folder / session_layout::board_image(i, "color"), kColorImage, shots[i].color, {});
         image(folder / session_layout::board_image(i, "ir"), kDepthImage, shots[i].ir, {});
-        image(folder / session_layout::board_image(i, "depth"), kDepthImage, shots[i].depth_mm, {});
+        depth(folder / session_layout::board_image(i, "depth"), shots[i].depth_mm, {}, nullptr);
       }
   }
 
   void image(const fs::path& relative, const ImageKind& kind, cv::Mat& target, cv::Size size) {
     jobs_.push_back([path = inside(relative), &kind, &target, size] { target = read_image(path, kind, size); });
     targets_.push_back({&target, inside(relative)});
+  }
+
+  DepthGroup& group(const fs::path& relative) {
+    groups_.emplace_back().where = inside(relative);
+    return groups_.back();
+  }
+
+  // A depth image, which must say 0 where there is no depth; counted into its group.
+  void depth(const fs::path& relative, cv::Mat& target, cv::Size size, DepthGroup* group) {
+    jobs_.push_back([path = inside(relative), &target, size, group] {
+      target = read_image(path, kDepthImage, size);
+      const std::string problem = problem_with_depth_code(target);
+      if (!problem.empty()) throw InputError(path.string(), problem);
+      if (!group) return;
+      DepthTally tally;
+      tally.add(target);
+      const std::lock_guard lock(group->mutex);
+      group->tally.add(tally);
+    });
+    targets_.push_back({&target, inside(relative)});
+  }
+
+  void check_depths() const {
+    for (const auto& group : groups_) {
+      const std::string problem = problem_with_depth(group.tally);
+      if (!problem.empty()) throw InputError(group.where.string(), problem);
+    }
   }
 
   // All images, two at a time or more; of several damaged ones the first in the session's order is reported.
@@ -203,6 +245,7 @@ class Reader {
     });
     for (const auto& error : errors)
       if (error) std::rethrow_exception(error);
+    check_depths();
     if (!session_.calibration) check_sizes_agree();
   }
 
@@ -218,8 +261,8 @@ class Reader {
     };
     for (const auto* shots : {&session_.naked, &session_.dressed})
       for (const auto& [sensor, shot] : *shots) {
-        for (const auto* image : {&shot.depth_mm, &shot.ir}) check(sensor, *image);
-        if (!shot.body_index.empty()) check(sensor, shot.body_index);
+        for (const auto* image : {&shot.depth_mm, &shot.ir, &shot.body_index})
+          if (!image->empty()) check(sensor, *image);
         check(sensor + " colour", shot.color);
       }
     for (const auto& [sensor, shots] : session_.boards->shots)
@@ -235,6 +278,7 @@ class Reader {
   CaptureSession session_;
   std::vector<std::function<void()>> jobs_;
   std::vector<std::pair<const cv::Mat*, fs::path>> targets_;
+  std::deque<DepthGroup> groups_;
 };
 
 }  // namespace

@@ -27,10 +27,18 @@ cv::Mat noise(cv::Size size, int type, int stream) {
   return image;
 }
 
+// Depth of a room, with holes.
+cv::Mat some_depth(int stream) {
+  cv::Mat depth(kGrid, CV_16UC1);
+  cv::RNG(static_cast<std::uint64_t>(stream) + 1).fill(depth, cv::RNG::UNIFORM, 500, 4500);
+  depth.row(0).setTo(0);
+  return depth;
+}
+
 Shot some_shot(int stream) {
   Shot shot;
   shot.color = noise(kColor, CV_8UC3, stream);
-  shot.depth_mm = noise(kGrid, CV_16UC1, stream + 100);
+  shot.depth_mm = some_depth(stream + 100);
   shot.ir = noise(kGrid, CV_16UC1, stream + 200);
   return shot;
 }
@@ -65,7 +73,7 @@ CaptureSession some_session() {
   handheld.color_from_ir = Isometry3d::Identity();
   session.calibration->sensors["handheld"] = handheld;
   for (const char* name : {"scan_naked", "scan_user"})
-    session.scans[name] = {"handheld", {noise(kGrid, CV_16UC1, 300), noise(kGrid, CV_16UC1, 301)}};
+    session.scans[name] = {"handheld", {some_depth(300), some_depth(301)}};
   session.prior.emplace();
   for (const auto& name : session.sensors)
     session.prior->world_from_sensor[name] = some_calibration().color_from_ir * Eigen::Translation3d(1, 2, 3);
@@ -215,6 +223,18 @@ TEST_F(SessionFolder, MatrixErrors) {
               }),
               HasSubstr(field));
   EXPECT_THAT(after([](json& m) { m[3][0] = 0.5; }), HasSubstr(field));
+  EXPECT_THAT(after([](json& m) {
+                json transposed = m;
+                for (int i = 0; i < 4; ++i)
+                  for (int k = 0; k < 4; ++k) transposed[i][k] = m[k][i];
+                m = transposed;
+              }),
+              HasSubstr("looks transposed: the translation stands in the last row"));
+  EXPECT_THAT(after([](json& m) {
+                for (int i = 0; i < 3; ++i)
+                  for (int k = 0; k < 3; ++k) m[i][k] = 2 * m[i][k].get<double>();
+              }),
+              HasSubstr("its axes are 2 long instead of 1"));
   EXPECT_THAT(after([](json& m) { m[0][3] = nullptr; }), HasSubstr("world_from_sensor_prior.k2[0][3]: found null"));
   EXPECT_THAT(after([](json& m) { m.erase(3); }), HasSubstr("found 3 rows"));
   EXPECT_EQ(after([](json& m) { m[0][0] = std::round(m[0][0].get<double>() * 1e5) / 1e5; }), "no error");
@@ -245,6 +265,16 @@ TEST_F(SessionFolder, CalibrationErrors) {
   EXPECT_THAT(after([](json& s) { s["k2"].erase("color_from_ir"); }), HasSubstr("color_from_ir: is missing"));
   EXPECT_THAT(after([](json& s) { s["k1"]["ir"]["width"] = 33; }),
               HasSubstr("depth.png: found 32 x 26 pixels; expected 33 x 26"));
+  EXPECT_THAT(after([](json& s) { s["k2"]["color"]["fy"] = -1068.7; }),
+              HasSubstr("sensors.k2.color.fy: found -1068.7 px; expected a positive focal length"));
+  EXPECT_THAT(after([](json& s) { s["k1"]["ir"]["fx"] = 0.72; }), HasSubstr("looks like a part of the width"));
+  EXPECT_THAT(after([](json& s) { s["k1"]["color"]["cx"] = 960; }),
+              HasSubstr("sensors.k1.color.cx: found a principal point at 960 px, outside the image of 64 px"));
+  EXPECT_THAT(after([](json& s) { s["k1"]["color_from_ir"][0][3] = 51.2; }),
+              HasSubstr("sensors.k1.color_from_ir: found a step of 51.2 m"));
+  EXPECT_THAT(after([](json& s) { s["k1"]["color_from_ir"][0][3] = 51.2; }), HasSubstr("looks like millimetres"));
+  EXPECT_THAT(after([](json& s) { s["k1"]["depth_offset_m"] = -13.35; }),
+              HasSubstr("sensors.k1.depth_offset_m: found -13.35 m"));
   fs::remove(folder_ / "calibration.json");
   EXPECT_THAT(error(), HasSubstr("calibration.json: is missing"));
 }
@@ -270,7 +300,8 @@ TEST_F(SessionFolder, DamagedFiles) {
     fs::resize_file(file, 0);
     EXPECT_THAT(error(), HasSubstr(std::string(name) + ": found no PNG"));
     fs::remove(file);
-    EXPECT_THAT(error(), HasSubstr(std::string(name) + ": is missing"));
+    const bool optional = std::string(name).find("ir.png") != std::string::npos;
+    EXPECT_THAT(error(), HasSubstr(optional ? "no error" : std::string(name) + ": is missing"));
     fs::copy_file(kept, file);
     std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(80).put('\x55').put('\x2a');
     EXPECT_THAT(error(), HasSubstr(std::string(name) + ": is damaged"));
@@ -317,6 +348,104 @@ TEST_F(SessionFolder, BoardsInsteadOfACalibration) {
   EXPECT_THAT(error_with_image("boards/k2/01_ir.png", noise(kColor, CV_16UC1, 1)), HasSubstr("differs in size"));
   fs::remove(folder_ / "boards/k1/00_depth.png");
   EXPECT_THAT(error(), HasSubstr("boards/k1/00_depth.png: is missing"));
+}
+
+TEST_F(SessionFolder, InfraredIsOptional) {
+  fs::remove(folder_ / "naked/k1/ir.png");
+  CaptureSession session = read_capture_session(folder_);
+  EXPECT_TRUE(session.naked.at("k1").ir.empty());
+  EXPECT_FALSE(session.naked.at("k2").ir.empty());
+  folder_ = root_ / "without";
+  write_capture_session(folder_, session);
+  EXPECT_FALSE(fs::exists(folder_ / "naked/k1/ir.png"));
+  EXPECT_TRUE(read_capture_session(folder_).naked.at("k1").ir.empty());
+}
+
+TEST_F(SessionFolder, DepthThatIsNone) {
+  cv::Mat depth = some_depth(1);
+  depth.at<std::uint16_t>(9, 9) = 65535;
+  EXPECT_THAT(
+      error_with_image("naked/k1/depth.png", depth),
+      HasSubstr("naked/k1/depth.png: found 65535 (0xFFFF) in 1 of 832 pixels, 65.5 m if it were depth, which is "
+                "what recorders write where there is no depth; expected millimetres, and 0 for none"));
+  EXPECT_THAT(error_with_image("scan_user/0001_depth.png", depth), HasSubstr("scan_user/0001_depth.png: found 65535"));
+  EXPECT_THAT(error_with_image("dressed/k2/depth.png", cv::Mat::zeros(kGrid, CV_16UC1)),
+              HasSubstr("dressed/k2/depth.png: found no pixel with depth"));
+  EXPECT_EQ(error_with_image("scan_user/0001_depth.png", cv::Mat::zeros(kGrid, CV_16UC1)), "no error")
+      << "a frame may be lost, a scan may not";
+  cv::imwrite((folder_ / "scan_user/0000_depth.png").string(), cv::Mat::zeros(kGrid, CV_16UC1));
+  EXPECT_THAT(error_with_image("scan_user/0001_depth.png", cv::Mat::zeros(kGrid, CV_16UC1)),
+              HasSubstr("scan_user: found no pixel with depth"));
+}
+
+TEST_F(SessionFolder, DepthInAnotherUnit) {
+  EXPECT_THAT(error_with_image("naked/k1/depth.png", some_depth(1) / 10),
+              HasSubstr("naked/k1/depth.png: found depth of 0.2"));
+  EXPECT_THAT(error_with_image("naked/k1/depth.png", some_depth(1) / 10),
+              HasSubstr("(looks like centimetres, 100 a metre)"));
+  EXPECT_THAT(error_with_image("dressed/k1/depth.png", some_depth(1) * 5), HasSubstr("(looks like 5000 a metre)"));
+}
+
+TEST_F(SessionFolder, PriorsThatNoRigHas) {
+  const auto at = [&](double azimuth_rad) {
+    Isometry3d pose = Isometry3d::Identity();  // 2.1 m away, 1.25 m high, looking at the axis, a little down
+    pose.linear() =
+        (Eigen::AngleAxisd(azimuth_rad, Vector3d::UnitY()) * Eigen::AngleAxisd(M_PI + 0.05, Vector3d::UnitX()))
+            .toRotationMatrix();
+    pose.translation() = Vector3d(2.1 * std::sin(azimuth_rad), 1.25, 2.1 * std::cos(azimuth_rad));
+    return pose;
+  };
+  const auto after = [&](auto change) {
+    return error_after("session.json", [&](json& f) {
+      for (const auto& [name, azimuth] : {std::pair("k1", 0.1), {"k2", 1.6}}) {
+        const Isometry3d pose = change(at(azimuth));
+        auto& rows = f["world_from_sensor_prior"][name] = json::array();
+        for (int i = 0; i < 4; ++i)
+          rows.push_back({pose.matrix()(i, 0), pose.matrix()(i, 1), pose.matrix()(i, 2), pose.matrix()(i, 3)});
+      }
+    });
+  };
+  const auto scaled = [](double by) {
+    return [by](Isometry3d pose) {
+      pose.translation() *= by;
+      return pose;
+    };
+  };
+  EXPECT_EQ(after([](const Isometry3d& pose) { return pose; }), "no error");
+  EXPECT_THAT(after(scaled(1000)),
+              HasSubstr("world_from_sensor_prior.k1: found a sensor at (209.65, 1250, 2089.51) m"));
+  EXPECT_THAT(after(scaled(1000)), HasSubstr("looks like millimetres"));
+  EXPECT_THAT(after(scaled(100)), HasSubstr("looks like centimetres"));
+  EXPECT_THAT(after(scaled(39.37)), HasSubstr("looks like inches"));
+  EXPECT_THAT(after([](const Isometry3d& pose) { return Isometry3d(pose.inverse()); }),
+              HasSubstr("world_from_sensor_prior: found 1 of 2 sensors that look at the mannequin"));
+  EXPECT_THAT(after([](const Isometry3d& pose) { return Isometry3d(pose.inverse()); }), HasSubstr("the inverse"));
+  EXPECT_THAT(
+      after([](const Isometry3d& pose) { return Isometry3d(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()) * pose); }),
+      HasSubstr("a world with z up"));
+  EXPECT_THAT(
+      after([](const Isometry3d& pose) { return Isometry3d(pose * Eigen::AngleAxisd(M_PI, Vector3d::UnitX())); }),
+      HasSubstr("y up and z backwards"));
+  EXPECT_THAT(error_after("session.json", [](json& f) { f["prior_sigma"]["translation_m"] = 80; }),
+              HasSubstr("found a sigma of 80 m (prior_sigma.translation_m)"));
+}
+
+TEST_F(SessionFolder, ManyBoardShots) {
+  CaptureSession session = some_session();
+  session.boards.emplace();
+  session.boards->inner_corners_x = 11, session.boards->inner_corners_y = 19, session.boards->square_m = 0.028;
+  const Shot shot = some_shot(50);
+  for (const auto& name : session.sensors)
+    session.boards->shots[name].assign(102, BoardShot{shot.color, shot.ir, shot.depth_mm});
+  folder_ = root_ / "many";
+  write_capture_session(folder_, session);
+  EXPECT_EQ(read_capture_session(folder_).boards->shots.at("k2").size(), 102u);
+  const auto with_square = [&](double square_m) {
+    return error_after("session.json", [&](json& f) { f["boards"]["square_m"] = square_m; });
+  };
+  EXPECT_THAT(with_square(2.8), HasSubstr("boards.square_m: found squares of 2.8 m, so a board 56 m long"));
+  EXPECT_THAT(with_square(2.8), HasSubstr("looks like centimetres: 0.028 m"));
+  EXPECT_THAT(with_square(28), HasSubstr("looks like millimetres: 0.028 m"));
 }
 
 TEST_F(SessionFolder, ContentHash) {

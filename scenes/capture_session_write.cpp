@@ -68,7 +68,7 @@ void list_shots(const fs::path& folder, const std::map<std::string, Shot>& shots
     fs::create_directories(folder / sensor);
     if (!shot.color.empty()) files.push_back({folder / sensor / "color.png", &shot.color});
     files.push_back({folder / sensor / "depth.png", &shot.depth_mm});
-    files.push_back({folder / sensor / "ir.png", &shot.ir});
+    if (!shot.ir.empty()) files.push_back({folder / sensor / "ir.png", &shot.ir});
     if (!shot.body_index.empty()) files.push_back({folder / sensor / "body_index.png", &shot.body_index});
     if (shot.skeleton) write_skeleton(folder / sensor / "skeleton.json", *shot.skeleton);
   }

@@ -29,10 +29,21 @@ template <class T>
 T in_range(const std::string& where, T value, T minimum, T maximum, const char* unit) {
   if (value >= minimum && value <= maximum) return value;
   throw InputError(where, "found " + to_text(value) + "; expected " + to_text(minimum) + " to " + to_text(maximum) +
-                              (*unit ? std::string(" ") + unit : ""));
+                              (*unit ? std::string(" ") + unit : "") +
+                              likely_unit(static_cast<double>(value), static_cast<double>(minimum),
+                                          static_cast<double>(maximum), unit));
 }
 
 }  // namespace
+
+std::string likely_unit(double value, double minimum, double maximum, const std::string& unit) {
+  if (unit != "m" || (value >= minimum && value <= maximum)) return "";
+  const std::pair<const char*, double> others[] = {{"centimetres", 0.01}, {"millimetres", 0.001}};
+  for (const auto& [name, metres] : others)
+    if (value * metres >= minimum && value * metres <= maximum && value * metres != 0)
+      return std::string("; looks like ") + name;
+  return "";
+}
 
 std::string to_text(const FieldValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";

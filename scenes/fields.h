@@ -32,6 +32,9 @@ struct FieldInfo {
 // Exact, locale-free text of a value (17 significant digits), used in cache keys and files.
 std::string to_text(const FieldValue& value);
 
+// "; looks like millimetres" where a length in metres that is out of range is within it as that; else empty.
+std::string likely_unit(double value, double minimum, double maximum, const std::string& unit);
+
 // Reads `text` as a value of the same type as `like`. Throws InputError naming `where`.
 FieldValue parse_field(const std::string& where, const std::string& text, const FieldValue& like);
 

@@ -9,15 +9,20 @@
 
 namespace dressform {
 
-std::string read_file_bytes(const std::filesystem::path& path) {
+std::string read_file_bytes(const std::filesystem::path& path, std::size_t most_bytes) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(path.string(), "found no such file; expected a file");
   if (!std::filesystem::is_regular_file(path, error))
     throw InputError(path.string(), "found a folder or device; expected a file");
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::filesystem::file_size(path, error), '\0');
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(path.string(), "cannot be read; expected a readable file");
+  if (size > most_bytes)
+    throw InputError(path.string(),
+                     "found " + std::to_string(size) + " bytes; expected " + std::to_string(most_bytes) + " at most");
+  std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (error || !file || file.gcount() != static_cast<std::streamsize>(bytes.size()))
+  if (!file || file.gcount() != static_cast<std::streamsize>(bytes.size()))
     throw InputError(path.string(), "cannot be read; expected a readable file");
   return bytes;
 }

@@ -21,7 +21,7 @@ const std::vector<std::string>& joint_names();
 struct Shot {
   cv::Mat color;       // 8-bit BGR, sRGB; empty for a bare depth scanner
   cv::Mat depth_mm;    // uint16, along the IR camera's axis, 0 = none, on the IR grid
-  cv::Mat ir;          // uint16, on the IR grid
+  cv::Mat ir;          // uint16, on the IR grid; empty when not recorded
   cv::Mat body_index;  // uint8, 255 = none, on the IR grid; empty when not recorded
   std::optional<Skeleton> skeleton;
 };

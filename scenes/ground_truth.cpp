@@ -4,6 +4,7 @@
 #include <tbb/parallel_invoke.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <opencv2/core.hpp>
@@ -26,6 +27,7 @@ constexpr int kLabels = 4;            // 0 none, 1 skin, 2 top, 3 bottom
 constexpr double kMostStrain = 0.05;  // of 95 % of the edges of cloth that lies as cloth does
 
 void read_poses(const fs::path& folder, GroundTruth& truth) {
+  if (!fs::exists(folder / "world_from_sensor.json")) return;
   const JsonValue file = read_json(folder / "world_from_sensor.json");
   const JsonValue sensors = file.at("sensors");
   for (const auto& name : sensors.names()) truth.world_from_sensor[name] = sensors.at(name).rigid();
@@ -56,6 +58,7 @@ TruthRim read_rim(const JsonValue& value) {
 }
 
 void read_rims(const fs::path& folder, GroundTruth& truth) {
+  if (!fs::exists(folder / "rims.json")) return;
   const JsonValue file = read_json(folder / "rims.json");
   for (const auto& [slot, garment] : truth.garments)
     for (const auto& rim : file.at(slot).elements()) truth.rims[slot].push_back(read_rim(rim));
@@ -76,8 +79,13 @@ void write_rims(const fs::path& folder, const GroundTruth& truth) {
 
 TruthGarment read_garment(const fs::path& ply, const fs::path& glb) {
   TruthGarment garment;
-  tbb::parallel_invoke([&] { garment.mesh = read_mesh(ply); }, [&] { garment.textured = read_textured_mesh(glb); });
-  garment.views = read_ply_vertex_property(ply, "views");
+  tbb::parallel_invoke([&] { garment.mesh = read_mesh(ply); },
+                       [&] {
+                         if (fs::exists(glb)) garment.textured = read_textured_mesh(glb);
+                       });
+  const auto views = find_ply_vertex_property(ply, "views");
+  if (!views) return garment;
+  garment.views = *views;
   if (garment.views.size() != garment.mesh.vertices.size())
     throw InputError(ply.string() + ": views", "found " + std::to_string(garment.views.size()) + " values; expected " +
                                                    std::to_string(garment.mesh.vertices.size()));
@@ -97,7 +105,6 @@ void read_garments(const fs::path& folder, GroundTruth& truth) {
     const JsonValue file = read_json(folder / "rest.json");
     for (auto& [slot, garment] : truth.garments) garment.rest = read_rest(file.at(slot));
   }
-  if (truth.garments.empty()) throw InputError(folder.string(), "found no top.ply or bottom.ply; expected a garment");
 }
 
 void write_garments(const fs::path& folder, const GroundTruth& truth) {
@@ -129,7 +136,6 @@ void read_labels(const fs::path& folder, GroundTruth& truth) {
 
 std::string read_text(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string(), "is missing; expected the scene's text");
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -171,6 +177,14 @@ std::vector<std::string> drape_warnings(const fs::path& session_folder) {
   return lines;
 }
 
+std::vector<std::string> truth_garment_names(const fs::path& session_folder) {
+  std::vector<std::string> names;
+  for (const auto& slot : kSlots)
+    if (fs::exists(session_folder / "truth/garments" / (slot + ".ply"))) names.push_back(slot);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 bool ground_truth_exists(const fs::path& session_folder) { return fs::is_directory(session_folder / "truth"); }
 
 GroundTruth read_ground_truth(const fs::path& session_folder) {
@@ -179,9 +193,16 @@ GroundTruth read_ground_truth(const fs::path& session_folder) {
   GroundTruth truth;
   read_poses(folder, truth);
   if (fs::exists(folder / "calibration.json")) truth.calibration = read_calibration(folder / "calibration.json");
-  tbb::parallel_invoke([&] { truth.naked_body = read_mesh(folder / "naked_body.ply"); },
-                       [&] { truth.user_body = read_mesh(folder / "user_body.ply"); },
+  const auto body = [&](const char* name, Mesh& mesh) {
+    if (fs::exists(folder / name)) mesh = read_mesh(folder / name);
+  };
+  tbb::parallel_invoke([&] { body("naked_body.ply", truth.naked_body); },
+                       [&] { body("user_body.ply", truth.user_body); },
                        [&] { read_garments(folder / "garments", truth); });
+  if (truth.world_from_sensor.empty() && truth.garments.empty() && truth.naked_body.triangles.empty())
+    throw InputError(folder.string(),
+                     "found neither poses nor garments nor bodies; expected world_from_sensor.json, "
+                     "garments/<top|bottom>.ply or naked_body.ply");
   read_rims(folder, truth);
   read_labels(folder / "labels", truth);
   truth.scene_toml = read_text(folder / "scene.toml");

@@ -20,8 +20,8 @@ struct ClothRest {
 
 struct TruthGarment {
   Mesh mesh;                        // world frame
-  std::vector<std::uint8_t> views;  // per vertex: how many sensors see it
-  TexturedMesh textured;            // the same surface with its print (from the GLB)
+  std::vector<std::uint8_t> views;  // per vertex: how many sensors see it; empty: not known
+  TexturedMesh textured;            // the same surface with its print (from the GLB); empty: not known
   ClothRest rest;
 };
 struct TruthRim {
@@ -45,7 +45,12 @@ struct GroundTruth {
 // One line for each thing that is wrong with how the clothes of SESSION/truth lie; none where there is no truth.
 std::vector<std::string> drape_warnings(const std::filesystem::path& session_folder);
 
-// Reads SESSION/truth. Throws InputError naming the file; `exists` tells whether there is any truth at all.
+// The garments that SESSION/truth has, sorted; none where there is no truth.
+std::vector<std::string> truth_garment_names(const std::filesystem::path& session_folder);
+
+// Reads SESSION/truth. Any part of it may be missing (poses only, meshes without texture, no labels) and is empty then.
+// Throws InputError naming a file that is there and damaged, and when nothing is there that a run could be judged by;
+// `exists` tells whether there is any truth at all.
 bool ground_truth_exists(const std::filesystem::path& session_folder);
 GroundTruth read_ground_truth(const std::filesystem::path& session_folder);
 void write_ground_truth(const std::filesystem::path& session_folder, const GroundTruth& truth);

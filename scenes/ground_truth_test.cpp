@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "scenes/error.h"
+#include "scenes/mesh_io.h"
 
 namespace dressform {
 namespace {
@@ -141,19 +142,30 @@ TEST_F(TruthFolder, Damage) {
               HasSubstr("found 2 numbers"));
   cv::imwrite((folder_ / "truth/labels/k1.png").string(), cv::Mat(9, 16, CV_8UC1, cv::Scalar(9)));
   EXPECT_THAT(error(), HasSubstr("labels/k1.png: found label 9"));
-  for (const char* name : {"labels/k1.png", "scene.toml", "user_body.ply", "garments/top.glb", "rims.json"}) {
-    const fs::path file = folder_ / "truth" / name;
-    if (std::string(name) == "labels/k1.png") {
-      fs::remove(file);
-      continue;
-    }
-    fs::rename(file, folder_ / "kept");
-    EXPECT_THAT(error(), HasSubstr(name)) << name;
-    fs::rename(folder_ / "kept", file);
-  }
+  fs::remove(folder_ / "truth/labels/k1.png");
   EXPECT_EQ(error(), "no error") << "labels of a sensor may be absent";
+  fs::resize_file(folder_ / "truth/user_body.ply", 100);
+  EXPECT_THAT(error(), HasSubstr("user_body.ply"));
   fs::remove_all(folder_ / "truth");
   EXPECT_THAT(error(), HasSubstr("truth: is missing"));
+}
+
+// Others' truth is often there in part only: what is missing is empty.
+TEST_F(TruthFolder, AnyPartMayBeMissing) {
+  const fs::path truth = folder_ / "truth";
+  EXPECT_EQ(truth_garment_names(folder_), std::vector<std::string>{"top"});
+  fs::remove(truth / "garments/top.glb");
+  EXPECT_TRUE(read_ground_truth(folder_).garments.at("top").textured.mesh.triangles.empty());
+  write_ply(truth / "garments/top.ply", some_garment().mesh);  // without `views`
+  EXPECT_TRUE(read_ground_truth(folder_).garments.at("top").views.empty());
+  for (const char* name : {"rims.json", "labels", "scene.toml", "user_body.ply", "naked_body.ply", "garments"})
+    fs::remove_all(truth / name);
+  const GroundTruth poses = read_ground_truth(folder_);
+  EXPECT_EQ(poses.world_from_sensor.size(), 2u);
+  EXPECT_TRUE(poses.garments.empty() && poses.rims.empty() && poses.labels.empty());
+  EXPECT_TRUE(truth_garment_names(folder_).empty());
+  fs::remove(truth / "world_from_sensor.json");
+  EXPECT_THAT(error(), HasSubstr("neither poses nor garments"));
 }
 
 }  // namespace

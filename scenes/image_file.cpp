@@ -20,9 +20,25 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
+// The bytes of an image, wherever they are kept.
+struct View {
+  const unsigned char* data;
+  std::size_t size;
+  const unsigned char& operator[](std::size_t i) const { return data[i]; }
+};
+
+// What a PNG's header says.
+struct PngHeader {
+  std::uint32_t width, height;
+  int bits, color;
+};
+
 Bytes read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))  // a pipe would wait for ever
+    throw InputError(file.string(), "is missing; expected an image");
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream || std::filesystem::is_directory(file)) throw InputError(file.string(), "is missing; expected an image");
+  if (!stream) throw InputError(file.string(), "cannot be read; expected a readable image");
   Bytes bytes(static_cast<std::size_t>(stream.tellg()));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -56,68 +72,106 @@ std::uint32_t crc32(const unsigned char* data, std::size_t size) {
   return ~crc;
 }
 
-bool is_png(const Bytes& bytes) {
+bool is_png(const View& bytes) {
   static const unsigned char magic[8] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
-  return bytes.size() >= 8 && std::memcmp(bytes.data(), magic, 8) == 0;
+  return bytes.size >= 8 && std::memcmp(bytes.data, magic, 8) == 0;
 }
 
-bool is_jpeg(const Bytes& bytes) {
-  return bytes.size() >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
-}
+bool is_jpeg(const View& bytes) { return bytes.size >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF; }
 
 // Walks the chunks of a PNG. The decoder would print damage on the terminal and return half an image.
-void check_png(const std::filesystem::path& file, const Bytes& bytes, const ImageKind& kind) {
-  const auto damaged = [&] { throw InputError(file.string(), "is damaged; expected a whole PNG"); };
+PngHeader checked_png(const std::string& where, const View& bytes) {
+  const auto damaged = [&] { throw InputError(where, "is damaged; expected a whole PNG"); };
+  PngHeader header{};
   std::size_t at = 8;
   bool ended = false;
   while (!ended) {
-    if (at + 12 > bytes.size()) damaged();
+    if (at + 12 > bytes.size) damaged();
     const std::size_t length = big_endian(&bytes[at]);
-    if (length > bytes.size() - at - 12) damaged();
+    if (length > bytes.size - at - 12) damaged();
     if (crc32(&bytes[at + 4], length + 4) != big_endian(&bytes[at + 8 + length])) damaged();
     if (at == 8) {
       if (std::memcmp(&bytes[12], "IHDR", 4) != 0 || length != 13) damaged();
-      const int bits = bytes[24], color = bytes[25];
-      const bool right = bits == (CV_MAT_DEPTH(kind.type) == CV_16U ? 16 : 8) &&
-                         (color == (kind.type == CV_8UC3 ? 2 : 0) || (color == 0 && kind.grey_too));
-      static const char* colors[] = {
-          "grey", "?", "colour", "palette", "grey with transparency", "?", "colour with transparency"};
-      if (!right)
-        throw InputError(file.string(), "found " + std::to_string(bits) + "-bit " + colors[color < 7 ? color : 1] +
-                                            "; expected " + kind.name);
+      header = {big_endian(&bytes[16]), big_endian(&bytes[20]), bytes[24], bytes[25]};
     }
     ended = std::memcmp(&bytes[at + 4], "IEND", 4) == 0;
     at += length + 12;
   }
+  return header;
+}
+
+void check_png_kind(const std::string& where, const PngHeader& header, const ImageKind& kind) {
+  const bool right = header.bits == (CV_MAT_DEPTH(kind.type) == CV_16U ? 16 : 8) &&
+                     (header.color == (kind.type == CV_8UC3 ? 2 : 0) || (header.color == 0 && kind.grey_too));
+  static const char* colors[] = {
+      "grey", "?", "colour", "palette", "grey with transparency", "?", "colour with transparency"};
+  if (!right)
+    throw InputError(where, "found " + std::to_string(header.bits) + "-bit " +
+                                colors[header.color < 7 ? header.color : 1] + "; expected " + kind.name);
 }
 
 // A JPEG cut short decodes to grey below the cut: look for its end mark (some writers pad after it).
-void check_jpeg(const std::filesystem::path& file, const Bytes& bytes, const ImageKind& kind) {
-  if (kind.type != CV_8UC3)
-    throw InputError(file.string(), "found a JPEG; expected a PNG of " + std::string(kind.name));
-  const std::size_t first = bytes.size() > 1024 ? bytes.size() - 1024 : 2;
-  for (std::size_t i = first; i + 1 < bytes.size(); ++i)
+void check_jpeg(const std::string& where, const View& bytes) {
+  const std::size_t first = bytes.size > 1024 ? bytes.size - 1024 : 2;
+  for (std::size_t i = first; i + 1 < bytes.size; ++i)
     if (bytes[i] == 0xFF && bytes[i + 1] == 0xD9) return;
-  throw InputError(file.string(), "is damaged; expected a whole JPEG");
+  throw InputError(where, "is damaged; expected a whole JPEG");
+}
+
+// Columns and rows of a JPEG, of its frame header; 0 x 0 where there is none.
+cv::Size jpeg_size(const View& bytes) {
+  for (std::size_t at = 2; at + 9 < bytes.size && bytes[at] == 0xFF;) {
+    const int mark = bytes[at + 1];
+    if (mark == 0xFF) {  // padding
+      ++at;
+      continue;
+    }
+    const bool is_frame = mark >= 0xC0 && mark <= 0xCF && mark != 0xC4 && mark != 0xC8 && mark != 0xCC;
+    if (is_frame) return {bytes[at + 7] << 8 | bytes[at + 8], bytes[at + 5] << 8 | bytes[at + 6]};
+    at += 2 + (static_cast<std::size_t>(bytes[at + 2]) << 8 | bytes[at + 3]);
+  }
+  return {};
+}
+
+cv::Mat decoded(const std::string& where, const View& bytes) {
+  cv::Mat image;
+  try {
+    image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size), CV_8U, const_cast<unsigned char*>(bytes.data)),
+                         cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+  }
+  if (image.empty()) throw InputError(where, "is damaged; expected an image");
+  return image;
+}
+
+void check_image_size(const std::string& where, double width, double height) {
+  constexpr double kMostSide = 16384, kMostPixels = 1 << 27;
+  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide || width * height > kMostPixels)
+    throw InputError(where, "found an image of " + std::to_string(static_cast<long long>(width)) + " x " +
+                                std::to_string(static_cast<long long>(height)) +
+                                " pixels; expected 1 to 16384 a side and 134217728 in all");
 }
 
 }  // namespace
 
 cv::Mat read_image(const std::filesystem::path& file, const ImageKind& kind, cv::Size size) {
-  const Bytes bytes = read_bytes(file);
-  if (is_png(bytes))
-    check_png(file, bytes, kind);
-  else if (is_jpeg(bytes))
-    check_jpeg(file, bytes, kind);
-  else
-    throw InputError(file.string(), std::string("found no PNG") + (kind.type == CV_8UC3 ? " or JPEG" : "") +
-                                        "; expected " + kind.name);
-  cv::Mat image;
-  try {
-    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
+  const Bytes read = read_bytes(file);
+  const View bytes{read.data(), read.size()};
+  const std::string where = file.string();
+  if (is_png(bytes)) {
+    const PngHeader header = checked_png(where, bytes);
+    check_png_kind(where, header, kind);
+    check_image_size(where, header.width, header.height);
+  } else if (is_jpeg(bytes)) {
+    if (kind.type != CV_8UC3) throw InputError(where, "found a JPEG; expected a PNG of " + std::string(kind.name));
+    check_jpeg(where, bytes);
+    const cv::Size size_in_header = jpeg_size(bytes);
+    check_image_size(where, size_in_header.width, size_in_header.height);
+  } else {
+    throw InputError(
+        where, std::string("found no PNG") + (kind.type == CV_8UC3 ? " or JPEG" : "") + "; expected " + kind.name);
   }
-  if (image.empty()) throw InputError(file.string(), "is damaged; expected an image");
+  cv::Mat image = decoded(where, bytes);
   if (kind.grey_too && image.type() == CV_8UC1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
   if (image.type() != kind.type)
     throw InputError(file.string(), "found " + std::to_string(image.channels()) + " channels of " +
@@ -127,6 +181,40 @@ cv::Mat read_image(const std::filesystem::path& file, const ImageKind& kind, cv:
                                         " pixels; expected " + std::to_string(size.width) + " x " +
                                         std::to_string(size.height));
   return image;
+}
+
+cv::Mat TextureImage::brightness() const {
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+TextureImage decode_texture(const std::string& where, const std::string& text) {
+  const View bytes{reinterpret_cast<const unsigned char*>(text.data()), text.size()};
+  if (is_png(bytes)) {
+    const PngHeader header = checked_png(where, bytes);
+    check_image_size(where, header.width, header.height);
+  } else if (is_jpeg(bytes)) {
+    check_jpeg(where, bytes);
+    const cv::Size size = jpeg_size(bytes);
+    check_image_size(where, size.width, size.height);
+  } else {
+    throw InputError(where, "not a readable image; expected a PNG or JPEG");
+  }
+  cv::Mat image = decoded(where, bytes);
+  if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1 / 257.0);
+  if (image.depth() != CV_8U) throw InputError(where, "found an image of floating-point pixels; expected 8 or 16 bits");
+  TextureImage result;
+  if (image.channels() == 4) {
+    cv::extractChannel(image, result.alpha, 3);
+    if (cv::countNonZero(result.alpha != 255) == 0) result.alpha.release();
+    cv::cvtColor(image, result.bgr, cv::COLOR_BGRA2BGR);
+  } else if (image.channels() == 1) {
+    cv::cvtColor(image, result.bgr, cv::COLOR_GRAY2BGR);
+  } else {
+    result.bgr = image;
+  }
+  return result;
 }
 
 void write_png(const std::filesystem::path& file, const cv::Mat& image) {

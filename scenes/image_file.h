@@ -18,6 +18,18 @@ extern const ImageKind kColorOrGreyImage;                      // of other tools
 // file and what was found: missing, damaged, another bit depth, channel count or size.
 cv::Mat read_image(const std::filesystem::path& file, const ImageKind& kind, cv::Size size = {});
 
+// An image to be laid on a surface.
+struct TextureImage {
+  cv::Mat bgr;                 // 8-bit BGR
+  cv::Mat alpha;               // 8 bits, same size; empty where every pixel is opaque
+  cv::Mat brightness() const;  // 8 bits, same size
+};
+
+// Decodes a PNG or JPEG of any kind: 16 bits are rounded to 8, grey becomes three equal channels. Pixels stay as they
+// are stored, whatever an EXIF orientation says: texture coordinates are counted on them. Throws InputError naming
+// `where`: damaged, no PNG or JPEG, larger than 16384 a side or 2^27 pixels (found out before memory is spent on it).
+TextureImage decode_texture(const std::string& where, const std::string& bytes);
+
 // Fast lossless PNG. Throws InputError when the file cannot be written.
 void write_png(const std::filesystem::path& file, const cv::Mat& image);
 

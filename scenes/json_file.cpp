@@ -1,11 +1,15 @@
 #include "scenes/json_file.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 
 #include "scenes/fields.h"
+#include "scenes/session_limits.h"
 
 namespace dressform {
 namespace {
@@ -15,6 +19,19 @@ constexpr double kRounded = 1e-4, kExact = 1e-12;
 std::string shown(const nlohmann::json& value) {
   const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+// The likely reason, in brackets; `off`: how far R R^T is from the identity.
+std::string why_not_rigid(const Eigen::Matrix4d& matrix, double off) {
+  const Eigen::Matrix3d written = matrix.topLeftCorner<3, 3>();
+  if (matrix.col(3) == Eigen::Vector4d(0, 0, 0, 1) && matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    return " (looks transposed: the translation stands in the last row)";
+  if (off <= kRounded && written.determinant() < 0) return " (its determinant is -1: a mirror image)";
+  const double scale = std::cbrt(std::abs(written.determinant()));
+  const Eigen::Matrix3d unit = written / std::max(scale, 1e-12);
+  if ((unit * unit.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kRounded)
+    return fmt::format(" (its axes are {:.4g} long instead of 1)", scale);
+  return fmt::format(" (R times its transpose is off the identity by {:.3g})", off);
 }
 
 }  // namespace
@@ -94,7 +111,8 @@ Isometry3d JsonValue::rigid() const {
   const Eigen::Matrix3d written = matrix.topLeftCorner<3, 3>();
   const double off = (written * written.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kRounded) || written.determinant() < 0 || matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    fail("found a matrix that is no rotation and translation; expected a rigid motion");
+    fail("found a matrix that is no rotation and translation" + why_not_rigid(matrix, off) +
+         "; expected a rigid motion, 4 rows of 4, the translation (metres) in the last column");
   Isometry3d result = Isometry3d::Identity();
   result.linear() = written;
   if (off > kExact) {
@@ -109,18 +127,28 @@ Camera JsonValue::camera() const {
   Camera camera;
   camera.width = at("width").whole(1, 16384);
   camera.height = at("height").whole(1, 16384);
-  camera.fx = at("fx").number(1, 1e6);
-  camera.fy = at("fy").number(1, 1e6);
+  camera.fx = at("fx").number();
+  camera.fy = at("fy").number();
   camera.cx = at("cx").number();
   camera.cy = at("cy").number();
   const auto distortion = at("distortion").numbers(5);
   std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+  if (const auto found = problem_with(camera)) at(found->field).fail(found->problem);
   return camera;
 }
 
 JsonValue read_json(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t(1) << 28;  // a thousand times what any of these files holds
+  std::error_code error_code;
+  if (!std::filesystem::exists(file, error_code)) throw InputError(file.string(), "is missing; expected a file");
+  if (!std::filesystem::is_regular_file(file, error_code))
+    throw InputError(file.string(), "found a folder or device; expected a file");
+  const auto bytes = std::filesystem::file_size(file, error_code);
+  if (bytes > kMostBytes)
+    throw InputError(file.string(),
+                     fmt::format("found {} MB; expected JSON of {} MB at most", bytes >> 20, kMostBytes >> 20));
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) throw InputError(file.string(), "is missing; expected a file");
+  if (!stream) throw InputError(file.string(), "cannot be read; expected a readable file");
   try {
     return {file.string(), nlohmann::json::parse(stream)};
   } catch (const nlohmann::json::exception& error) {

@@ -29,7 +29,7 @@ class JsonValue {
   std::vector<std::string> texts() const;
   // Rows of a rigid 4 x 4 matrix. Rounded to 1e-4 at most; brought to the nearest rotation when rounded at all.
   Isometry3d rigid() const;
-  Camera camera() const;
+  Camera camera() const;  // one that can be: session_limits.h
 
   const std::string& where() const { return where_; }
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(where_, problem); }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/calibration_toml.h"
 #include "scenes/scene_fields.h"
 #include "scenes/toml_section.h"
 
@@ -27,40 +28,6 @@ Isometry3d world_from_placed_sensor(const SensorPlace& place) {
 
 namespace {
 
-Camera read_camera(TomlSection& section) {
-  Camera camera;
-  fields(section, camera);
-  for (const char* key : {"width", "height", "fx", "fy", "cx", "cy"})
-    if (!section.has(key)) section.fail("", std::string("found no ") + key + "; expected it in every camera");
-  Eigen::VectorXd distortion = Eigen::VectorXd::Zero(5);
-  section.vector("distortion", distortion, 5, -10, 10, "");
-  for (int i = 0; i < 5; ++i) camera.distortion[i] = distortion[i];
-  return camera;
-}
-
-Isometry3d read_step(TomlSection& section) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vector3d translation = Vector3d::Zero();
-  section.rotation("rotation", rotation);
-  section.vector3("translation_m", translation, -10, 10, "m");
-  Isometry3d step = Isometry3d::Identity();
-  step.linear() = rotation;
-  step.translation() = translation;
-  return step;
-}
-
-SensorCalibration read_calibration(TomlSection& section) {
-  SensorCalibration calibration;
-  calibration.model = "kinect_v2";
-  section("model", calibration.model, {}, "");
-  section("depth_offset_m", calibration.depth_offset_m, -0.2, 0.2, "m", "");
-  if (!section.has("ir")) section.fail("", "found no ir camera; expected one (colour may be absent)");
-  section.child("ir", [&](TomlSection& ir) { calibration.ir = read_camera(ir); });
-  section.child("color", [&](TomlSection& color) { calibration.color = read_camera(color); });
-  section.child("color_from_ir", [&](TomlSection& step) { calibration.color_from_ir = read_step(step); });
-  return calibration;
-}
-
 SensorSpec read_sensor(TomlSection& section) {
   SensorSpec sensor;
   section("name", sensor.name, {}, "");
@@ -83,9 +50,17 @@ SensorSpec read_sensor(TomlSection& section) {
   return sensor;
 }
 
+// The mesh of someone's own body or garment, and how its coordinates are meant.
+void read_mesh_file(TomlSection& section, std::filesystem::path& mesh, MeshFrame& frame) {
+  section.path("mesh", mesh);
+  fields(section, frame);
+  for (const char* key : {"unit", "up", "lift_m"})
+    if (mesh.empty() && section.has(key)) section.fail(key, "found it without a mesh; expected `mesh` beside it");
+}
+
 BodySpec read_body(TomlSection& section) {
   BodySpec body;
-  section.path("mesh", body.mesh);
+  read_mesh_file(section, body.mesh, body.frame);
   fields(section, body);
   for (const char* key : {"sex", "stature_m", "chest_m", "waist_m", "hip_m"})
     if (!body.sample.empty() && section.has(key))
@@ -99,7 +74,7 @@ GarmentSpec read_garment(TomlSection& section) {
   if (!section.has("kind")) section.fail("", "found no kind; expected shirt, trousers, skirt or dress");
   garment.slot = garment.kind == "shirt" || garment.kind == "dress" ? "top" : "bottom";
   if (garment.name.empty()) garment.name = garment.kind;
-  section.path("mesh", garment.mesh);
+  read_mesh_file(section, garment.mesh, garment.frame);
   section.path("texture", garment.texture);
   if (garment.mesh.empty() && !garment.texture.empty())
     section.fail("texture", "found a texture without a mesh; expected `mesh` beside it, or a [garment.print]");

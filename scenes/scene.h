@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/camera.h"
+#include "scenes/mesh_frame.h"
 #include "scenes/registry.h"
 
 namespace dressform {
@@ -15,6 +16,7 @@ namespace dressform {
 
 struct BodySpec {
   std::filesystem::path mesh;  // someone's own closed body, placed as given; empty: the procedural body
+  MeshFrame frame;             // of `mesh`
   std::string sex = "male";    // proportions: "male" or "female"
   std::string sample;          // "man" or "woman": stature and girths are drawn from the survey; empty: as given
   int sample_seed = 1;         // which of the customers that can be drawn
@@ -35,6 +37,7 @@ struct GarmentSpec {
   std::string slot = "top";             // "top" or "bottom"
   std::string kind = "shirt";           // shirt, trousers, skirt, dress
   std::filesystem::path mesh, texture;  // someone's own garment, placed as given; empty: procedural
+  MeshFrame frame;                      // of `mesh`
   double sleeve = 0.45;                 // part of the arm from shoulder to wrist that is covered (shirts)
   double length = 1.0;                  // trousers, skirts, dresses: part of the way from waist to ankle
   double hem_below_waist_m = 0.20;      // shirts: how far the hem hangs below the waist

@@ -128,6 +128,25 @@ TEST_F(SceneFile, OwnMeshes) {
   EXPECT_EQ(scene.garments[1].slot, "top");
 }
 
+TEST_F(SceneFile, OwnMeshesMayBeInOtherUnits) {
+  for (const char* name : {"x.obj", "y.obj"}) write(name, "");
+  const Scene scene = read(base() +
+                           "[body]\nmesh = \"x.obj\"\nunit = \"dm\"\nlift_m = 0.9\n[[garment]]\nkind = \"skirt\"\n"
+                           "mesh = \"y.obj\"\nunit = \"cm\"\nup = \"z\"\n");
+  EXPECT_EQ(scene.body.frame.unit, "dm");
+  EXPECT_EQ(scene.body.frame.lift_m, 0.9);
+  EXPECT_EQ(scene.user.frame.unit, "dm");
+  EXPECT_EQ(scene.garments[0].frame.unit, "cm");
+  EXPECT_EQ(scene.garments[0].frame.up, "z");
+  EXPECT_THAT(error_of(base() + kShirt + "mesh = \"y.obj\"\nunit = \"yard\"\n"), HasSubstr("inch"));
+  EXPECT_THAT(error_of(base() + kShirt + "unit = \"cm\"\n"), HasSubstr("without a mesh"));
+}
+
+TEST_F(SceneFile, NumbersInAnotherUnitAreNamed) {
+  EXPECT_THAT(error_of(base() + kShirt + "[user]\nstature_m = 173.0\n"), HasSubstr("looks like centimetres"));
+  EXPECT_THAT(error_of(base() + kShirt + "[user]\nchest_m = 980.0\n"), HasSubstr("looks like millimetres"));
+}
+
 TEST_F(SceneFile, CustomersAreSampledInsteadOfGiven) {
   const Scene scene = read(base() + kShirt + "[user]\nsample = \"woman\"\nsample_seed = 7\npose = \"a_pose\"\n");
   EXPECT_EQ(scene.user.sample, "woman");
@@ -158,7 +177,8 @@ TEST_F(SceneFile, ErrorsCarryFileLineAndColumn) {
   EXPECT_THAT(error_of("name = \n"), HasSubstr(at(":1:")));
   EXPECT_THAT(error_of("name = \"a\"\n[body\n"), HasSubstr(at(":2:")));
   EXPECT_THAT(error_of(base() + "[body]\nchest = 1.0\n"), HasSubstr(at(":4:1: unknown key \"chest\" in body")));
-  EXPECT_THAT(error_of(base() + "[body]\nchest = 1.0\n"), HasSubstr("known are mesh, sex, stature_m, chest_m"));
+  EXPECT_THAT(error_of(base() + "[body]\nchest = 1.0\n"),
+              HasSubstr("known are mesh, unit, up, lift_m, sex, stature_m"));
   EXPECT_THAT(error_of(base() + kShirt + "[sensors]\n"), HasSubstr("unknown key \"sensors\""));
   EXPECT_THAT(error_of(base() + "[body]\nchest_m = 9\n"), HasSubstr(at(":4:11: body.chest_m: found 9; expected 0.5")));
   EXPECT_THAT(error_of(base() + "[body]\nchest_m = nan\n"), HasSubstr(at(":4:11: body.chest_m: found nan")));

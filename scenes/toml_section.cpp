@@ -38,9 +38,11 @@ std::string words(const std::vector<std::string>& list) {
 template <class T>
 void check_range(const toml::node& node, const std::string& name, T value, T minimum, T maximum, const char* unit) {
   if (value >= minimum && value <= maximum) return;
-  throw InputError(where_of(node), name + ": found " + to_text(FieldValue(value)) + "; expected " +
-                                       to_text(FieldValue(minimum)) + " to " + to_text(FieldValue(maximum)) +
-                                       (*unit ? " " : "") + unit);
+  throw InputError(
+      where_of(node),
+      name + ": found " + to_text(FieldValue(value)) + "; expected " + to_text(FieldValue(minimum)) + " to " +
+          to_text(FieldValue(maximum)) + (*unit ? " " : "") + unit +
+          likely_unit(static_cast<double>(value), static_cast<double>(minimum), static_cast<double>(maximum), unit));
 }
 
 const toml::array& array_of(const toml::node& node, const std::string& name, int size) {

@@ -2,42 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "scenes/random.h"
-#include "synthetic/boards/board.h"
 #include "synthetic/boards/given_calibration.h"
 #include "synthetic/body/body.h"
-#include "synthetic/body/body_tracking.h"
 #include "synthetic/body/scan_path.h"
-#include "synthetic/capture/color_camera.h"
 #include "synthetic/capture/visibility.h"
 #include "synthetic/garments/garment.h"
 #include "synthetic/room/room.h"
-#include "synthetic/sensors/sensor_model.h"
+#include "synthetic/studio.h"
 
 namespace dressform {
 namespace {
-
-// A seed of its own for each image, so that no two share their noise.
-Seed derived(Seed seed, const std::string& what) {
-  const auto numbers = uniform4(seed, stream_of(what.c_str()), 0);
-  return static_cast<Seed>(numbers[0] * 0x1p31) << 32 | static_cast<Seed>(numbers[1] * 0x1p32);
-}
-
-// Counts finished images for the caller.
-class Meter {
- public:
-  Meter(const SynthesisProgress& progress, int total) : progress_(progress), total_(total) {}
-  void step(const std::string& what) {
-    ++done_;
-    if (progress_) progress_(done_, total_, what);
-  }
-
- private:
-  const SynthesisProgress& progress_;
-  int total_, done_ = 0;
-};
 
 RaySurface skin_surface(const Body& body, const Vector3f& srgb, float nir_albedo, float gloss) {
   RaySurface surface;
@@ -65,11 +41,6 @@ RaySurface garment_surface(const GarmentSpec& spec, const Garment& garment) {
   surface.material.nir_print = 0.3f;
   surface.label = spec.slot == "top" ? Label::top : Label::bottom;
   return surface;
-}
-
-std::vector<RaySurface> joined(std::vector<RaySurface> first, const std::vector<RaySurface>& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
 }
 
 // Trousers before shirts, unless the shirt is tucked in: what is worn beneath comes first.
@@ -100,127 +71,6 @@ std::vector<Isometry3d> path_inside(const Scene& scene, const Body& body, Seed s
       throw InputError("scan.radius_m", "the walk leaves the room; expected a radius that stays inside it");
   return path;
 }
-
-int images_of(const Scene& scene) {
-  const int sensors = static_cast<int>(scene.rig.size());
-  return 2 * sensors + 2 * scene.scan.frames + (scene.boards ? sensors * scene.boards->views : 0);
-}
-
-struct Optics {
-  RayTable ir;
-  std::unique_ptr<RayTable> color;
-};
-
-// All that the captures of one scene share.
-class Studio {
- public:
-  Studio(const Scene& scene, Seed seed, const SynthesisProgress& progress)
-      : scene_(scene),
-        seed_(seed),
-        model_(SensorModel::at(scene.sensor_model.variant)),
-        meter_(progress, images_of(scene)),
-        lighting_(make_lighting(scene.lights, scene.room)),
-        exposure_(nominal_exposure(lighting_)) {
-    model_.complete(scene.sensor_model.values);
-    for (const auto& sensor : scene.rig) {
-      const auto& color = sensor.calibration.color;
-      optics_.push_back({RayTable(sensor.calibration.ir), color ? std::make_unique<RayTable>(*color) : nullptr});
-    }
-  }
-
-  // `name`: "naked" or "dressed".
-  std::map<std::string, Shot> shoot(const RayScene& world, const Body& body, const std::string& name) {
-    const IndirectLight indirect(world, lighting_);
-    std::map<std::string, Shot> shots;
-    for (std::size_t i = 0; i < scene_.rig.size(); ++i) {
-      const SensorSpec& sensor = scene_.rig[i];
-      shots[sensor.name] = shot(world, indirect, &body, sensor, optics_[i], derived(seed_, name + "/" + sensor.name));
-      meter_.step(name + "/" + sensor.name);
-    }
-    return shots;
-  }
-
-  // Shots of the board before every sensor, in an otherwise empty room.
-  Boards boards(const BoardsSpec& spec, const std::vector<RaySurface>& around) {
-    Boards result{spec.squares_x - 1, spec.squares_y - 1, spec.square_m, {}};
-    for (std::size_t i = 0; i < scene_.rig.size(); ++i) {
-      const SensorSpec& sensor = scene_.rig[i];
-      std::unique_ptr<IndirectLight> indirect;  // changes little with the board's pose: gathered once
-      for (const auto& ir_from_board : board_poses(spec, sensor, seed_)) {
-        auto& shots = result.shots[sensor.name];
-        const std::string name = "boards/" + sensor.name + "/" + std::to_string(shots.size());
-        const RayScene world(joined(around, {make_board(spec, sensor.world_from_sensor * ir_from_board)}));
-        if (!indirect) indirect = std::make_unique<IndirectLight>(world, lighting_);
-        Shot taken = shot(world, *indirect, nullptr, sensor, optics_[i], derived(seed_, name));
-        shots.push_back({taken.color, taken.ir, taken.depth_mm});
-        meter_.step(name);
-      }
-    }
-    return result;
-  }
-
-  DepthScan scan(const RayScene& world, const std::vector<Isometry3d>& path, const std::string& name) {
-    const RayTable rays(scene_.scan.calibration.ir);
-    DepthScan result{"handheld", {}};
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const std::string frame = name + "/" + std::to_string(i);
-      const IrView view(world, rays, scene_.scan.calibration.ir, path[i], scene_.scan.calibration.depth_offset_m, false,
-                        stream_of("handheld"));
-      result.depth_mm.push_back(measure(view, derived(seed_, frame)).depth_mm);
-      meter_.step(frame);
-    }
-    return result;
-  }
-
-  std::map<std::string, cv::Mat> labels(const RayScene& world) const {
-    std::map<std::string, cv::Mat> result;
-    for (std::size_t i = 0; i < scene_.rig.size(); ++i)
-      if (optics_[i].color)
-        result[scene_.rig[i].name] = render_labels(world, *optics_[i].color, world_from_color(scene_.rig[i]));
-    return result;
-  }
-
- private:
-  static Isometry3d world_from_color(const SensorSpec& sensor) {
-    return sensor.world_from_sensor * sensor.calibration.color_from_ir.inverse();
-  }
-
-  SensorFrame measure(const IrView& view, Seed seed) const {
-    return model_.run(view, scene_.sensor_model.values, seed);
-  }
-
-  // `body`: whom the sensor tracks, if it does; null: nobody is there.
-  Shot shot(const RayScene& world, const IndirectLight& indirect, const Body* body, const SensorSpec& sensor,
-            const Optics& optics, Seed seed) const {
-    Shot result;
-    if (optics.color) {
-      FilmSpec film;
-      film.gain = exposure_ * static_cast<float>(sensor.exposure * sensor.gain);
-      film.electrons_full_scale /= static_cast<float>(sensor.gain);
-      film.white_balance = sensor.white_balance.cast<float>();
-      film.mosaic = sensor.mosaic;
-      film.jpeg_quality = sensor.jpeg_quality;
-      result.color = render_color(world, lighting_, indirect, *optics.color, world_from_color(sensor), film, seed);
-    }
-    const IrView view(world, optics.ir, sensor.calibration.ir, sensor.world_from_sensor,
-                      sensor.calibration.depth_offset_m, true, stream_of(sensor.name.c_str()));
-    const SensorFrame frame = measure(view, seed);
-    result.depth_mm = frame.depth_mm;
-    result.ir = frame.ir;
-    if (!sensor.body_tracking || !body) return result;
-    result.body_index = track_body_index(view, seed);
-    result.skeleton = track_skeleton(*body, view, seed);
-    return result;
-  }
-
-  const Scene& scene_;
-  Seed seed_;
-  const SensorModel::Entry& model_;
-  Meter meter_;
-  Lighting lighting_;
-  float exposure_;
-  std::vector<Optics> optics_;
-};
 
 CaptureSession empty_session(const Scene& scene, Seed seed) {
   CaptureSession session;
@@ -285,8 +135,8 @@ SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgre
   SyntheticCapture out{empty_session(scene, seed), {}};
   GroundTruth& truth = out.truth;
   const Body body = make_body(scene.body), user = make_body(scene.user);
-  const auto naked_path = path_inside(scene, body, derived(seed, "scan_naked"));
-  const auto user_path = path_inside(scene, user, derived(seed, "scan_user"));
+  const auto naked_path = path_inside(scene, body, derived_seed(seed, "scan_naked"));
+  const auto user_path = path_inside(scene, user, derived_seed(seed, "scan_user"));
   const auto room = make_room(scene.room);
   const auto around = joined(joined(room, make_bulbs(scene.lights)), make_stand(body));
   take_shots(scene, studio, body, around, seed, out);

@@ -40,12 +40,15 @@ SceneRunProgress scene_progress(Progress& progress) {
   return result;
 }
 
-void print_summary(const EndToEndResult& result) {
+ExitCode print_summary(const EndToEndResult& result) {
   if (result.scores)
-    fmt::print("\n{}\n", score_table_text(*result.scores));
+    fmt::print("\n{}\n", score_table_text(*result.scores, result.scale));
   else
     fmt::print("\nno ground truth in the session: nothing to score\n");
   fmt::print("report: {}\n", std::filesystem::absolute(result.report).lexically_normal().string());
+  for (const auto& problem : result.problems)
+    fmt::print("{} {}\n", problem.garment_missing ? "GARMENT MISSING" : "FAILED", problem.text());
+  return garments_missing(result.problems) ? kGarmentsMissing : kSuccess;
 }
 
 }  // namespace dressform

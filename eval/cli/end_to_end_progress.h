@@ -1,4 +1,5 @@
 #pragma once
+#include "eval/cli/options.h"
 #include "eval/cli/progress.h"
 #include "eval/run/scene_run.h"
 
@@ -9,7 +10,7 @@ EndToEndProgress end_to_end_progress(Progress& progress);
 // The same with the capture before it.
 SceneRunProgress scene_progress(Progress& progress);
 
-// The score table, what the run cost and where the report is: the last thing a run prints.
-void print_summary(const EndToEndResult& result);
+// The score table, where the report is, and each stage that failed: the last thing a run prints. Gives the exit code.
+ExitCode print_summary(const EndToEndResult& result);
 
 }  // namespace dressform

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
@@ -18,6 +19,7 @@ struct GateOptions : CommonOptions {
   std::vector<std::string> cases;
   fs::path golden = "golden", work = "runs/gate";
   std::string reason, scene;
+  std::vector<std::string> misses;  // "stage metric=why"
 };
 
 void keep_images(const GoldenCase& reference, const GoldenRun& run, const fs::path& folder) {
@@ -29,23 +31,43 @@ void keep_images(const GoldenCase& reference, const GoldenRun& run, const fs::pa
   }
 }
 
+void print_targets(const GateResult& result) {
+  const auto missed = std::count_if(result.targets.begin(), result.targets.end(), [](const auto& t) { return !t.met; });
+  fmt::print("  targets: {} of {} met\n", result.targets.size() - missed, result.targets.size());
+  for (const auto& target : result.targets) {
+    const char* word = target.met ? "met" : target.known.empty() ? "NEWLY MISSED" : "known miss";
+    fmt::print("    {:<12} {}: {}, target {} from scale {:g}{}\n", word, target.metric, target.value, target.target,
+               target.from_scale, target.known.empty() ? "" : "; " + target.known);
+  }
+}
+
+void print_accept(const std::string& name, const GateResult& result) {
+  std::string misses;
+  for (const auto& target : result.targets)
+    if (!target.met && target.known.empty()) misses += fmt::format(" --miss \"{}=...\"", target.metric);
+  fmt::print("  to accept: dressform gate accept {} --reason \"...\"{}\n", name, misses);
+}
+
 ExitCode check_case(const std::string& name, const GateOptions& options, int threads, Progress& progress) {
   const GoldenCase reference = read_golden_case(options.golden, name);
   const GoldenRun run = run_golden_case(reference, options.golden, options.work, threads, scene_progress(progress));
   const GateResult result = compare_with_golden(reference, run.scores, run.images);
-  const fs::path kept = options.work / name / "gate";
-  if (result.verdict == GateVerdict::pass) {
+  const bool passed = result.verdict == GateVerdict::pass, obsolete = result.verdict == GateVerdict::obsolete;
+  if (passed)
     fmt::print("{}: pass, {} compared\n", name, result.compared);
-    return kSuccess;
-  }
-  keep_images(reference, run, kept);
-  const bool obsolete = result.verdict == GateVerdict::obsolete;
-  fmt::print("{}: {}, {} of {}\n", name, obsolete ? "OBSOLETE reference" : "REGRESSION", result.findings.size(),
-             result.compared);
+  else
+    fmt::print("{}: {}, {} of {}\n", name, obsolete ? "OBSOLETE reference" : "REGRESSION", result.findings.size(),
+               result.compared);
   for (const auto& finding : result.findings) fmt::print("  {}: {}\n", finding.what, finding.message);
-  fmt::print("  images (new, reference, difference x 10): {}\n  to accept: dressform gate accept {} --reason \"...\"\n",
-             kept.string(), name);
-  return obsolete ? kBadGolden : kRegression;
+  for (const auto& finding : result.better) fmt::print("  better, accept me: {}: {}\n", finding.what, finding.message);
+  print_targets(result);
+  if (!passed) {
+    const fs::path kept = options.work / name / "gate";
+    keep_images(reference, run, kept);
+    fmt::print("  images (new, reference, difference x 10): {}\n", kept.string());
+  }
+  if (!passed || !result.better.empty()) print_accept(name, result);
+  return passed ? kSuccess : obsolete ? kBadGolden : kRegression;
 }
 
 int check(const GateOptions& options) {
@@ -79,7 +101,19 @@ GoldenCase before(const std::string& name, const GateOptions& options) {
   }
 }
 
+std::map<std::string, std::string> miss_reasons(const GateOptions& options) {
+  std::map<std::string, std::string> reasons;
+  for (const auto& text : options.misses) {
+    const auto at = text.find('=');
+    if (at == std::string::npos || at == 0 || at + 1 == text.size())
+      throw InputError("--miss " + text, "expected \"stage metric=why\", e.g. \"open top/rims_hd95_mm@1=why\"");
+    reasons[text.substr(0, at)] = text.substr(at + 1);
+  }
+  return reasons;
+}
+
 int accept(const GateOptions& options) {
+  const auto reasons = miss_reasons(options);
   const ThreadLimit threads(options.threads);
   Progress progress(options.quiet);
   try {
@@ -87,7 +121,7 @@ int accept(const GateOptions& options) {
       const GoldenCase reference = before(name, options);
       const GoldenRun run =
           run_golden_case(reference, options.golden, options.work, threads.count(), scene_progress(progress));
-      const GoldenCase next = accepted(reference, run.scores, run.images, options.reason);
+      const GoldenCase next = accepted(reference, run.scores, run.images, options.reason, reasons);
       write_golden_case(options.golden, next);
       fmt::print("{}: accepted; {}\n", name, next.history.back());
     }
@@ -108,6 +142,10 @@ Command add_gate_command(CLI::App& app) {
       command->add_subcommand("accept", "Run cases and make what is new or beyond tolerance the reference");
   accepting->add_option("cases", options->cases, "cases")->required();
   accepting->add_option("--reason", options->reason, "why the change is right; kept in the case's history")->required();
+  accepting
+      ->add_option("--miss", options->misses,
+                   "\"stage metric=why\": why a target is missed that no accept explained before (repeatable)")
+      ->allow_extra_args(false);
   accepting->add_option("--scene", options->scene, "for a new case: its scene, relative to the folder of golden/");
   add_scene_options(*accepting, *options);
   for (auto* each : {checking, accepting}) {
@@ -117,7 +155,9 @@ Command add_gate_command(CLI::App& app) {
   }
   command->footer(
       "Example:\n  dressform gate check group1\n"
-      "  dressform gate accept group1 --reason \"new default for surface: rims 2 mm better\"");
+      "  dressform gate accept group1 --reason \"new default for surface: rims 2 mm better\"\n"
+      "  dressform gate accept group1 --reason \"new scene\" --miss \"open bottom/rims_hd95_mm@1=no view sees the "
+      "waist\"");
   return [options, checking] { return checking->parsed() ? check(*options) : accept(*options); };
 }
 

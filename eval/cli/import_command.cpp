@@ -6,6 +6,7 @@
 #include "eval/cli/options.h"
 #include "scenes/import/import.h"
 #include "scenes/scene_fields.h"
+#include "scenes/session_limits.h"
 
 namespace dressform {
 namespace {
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 struct ImportOptions : CommonOptions {
   ImportRequest request;
   fs::path recording;
-  std::string board;
+  std::string board, layout;
   std::vector<double> camera, place, sigma;
 };
 
@@ -25,9 +26,11 @@ void read_board(const std::string& text, ImportRequest& request) {
   const int read = std::sscanf(text.c_str(), "%dx%dx%lf%n", &request.inner_corners_x, &request.inner_corners_y,
                                &request.square_m, &used);
   const bool sound = request.inner_corners_x >= 2 && request.inner_corners_y >= 2 && request.inner_corners_x <= 200 &&
-                     request.inner_corners_y <= 200 && request.square_m >= 1e-4 && request.square_m <= 10;
+                     request.inner_corners_y <= 200 && std::isfinite(request.square_m);
   if (read != 3 || used != static_cast<int>(text.size()) || !sound)
     throw InputError("--board " + text, "expected inner corners and metres, e.g. 5x7x0.03");
+  const std::string problem = problem_with_board(request.inner_corners_x, request.inner_corners_y, request.square_m);
+  if (!problem.empty()) throw InputError("--board " + text, problem);
 }
 
 Camera camera_of(const std::vector<double>& numbers) {
@@ -51,15 +54,15 @@ ImportRequest complete_request(const ImportOptions& options) {
     if (stage != "import") throw InputError("--set " + stage, "expected import.parameter=value");
     request.values = values;
   }
+  if (!options.layout.empty()) {
+    if (request.format != "generic") throw InputError("--layout", "found for " + request.format + "; expected generic");
+    request.values["layout"] = options.layout;
+  }
   if (!options.board.empty()) read_board(options.board, request);
   check_numbers("--camera", options.camera, {4, 9}, "fx,fy,cx,cy or fx,fy,cx,cy,k1,k2,p1,p2,k3");
   check_numbers("--place", options.place, {3}, "azimuth (degrees), distance and height (metres)");
   check_numbers("--place-sigma", options.sigma, {2}, "degrees and metres");
-  if (!options.camera.empty()) {
-    request.camera = camera_of(options.camera);
-    if (!(request.camera->fx >= 1 && request.camera->fy >= 1))
-      throw InputError("--camera", "found no focal lengths; expected pixels");
-  }
+  if (!options.camera.empty()) request.camera = camera_of(options.camera);
   if (!options.place.empty())
     request.world_from_sensor =
         world_from_placed_sensor(SensorPlace{options.place[0], options.place[1], options.place[2], 0, 0, 0});
@@ -97,6 +100,8 @@ Command add_import_command(CLI::App& app) {
   command->add_option("--sensor", request.sensor, "name of the sensor; default k1, of scans handheld");
   command->add_option("--model", request.model,
                       "of the sensor: kinect_v2, kinect_v1, ...; default the format's usual one");
+  command->add_option("--layout", options->layout,
+                      "of a generic recording: a TOML file with patterns, scales, stamps and cameras");
   command->add_option("--with", request.with, "a session to take over, so that sensors and roles add up");
   command->add_option("--board", options->board, "inner corners and square of the board (default 5x7x0.03)");
   command->add_option("--camera", options->camera, "fx,fy,cx,cy[,k1,k2,p1,p2,k3] of the depth images")->delimiter(',');
@@ -118,7 +123,8 @@ Command add_import_command(CLI::App& app) {
       "Example:\n"
       "  dressform import iai_kinect2 boards/k1 --sensor k1 --board 5x7x0.03 -o sessions/k1\n"
       "  dressform import tum rgbd_dataset_freiburg1_xyz --role scan_user --every 6 --with sessions/k1 -o "
-      "sessions/lab");
+      "sessions/lab\n"
+      "  dressform import generic realsense_take --layout realsense.toml --role scan_user -o sessions/take");
   return [options] { return import_session(*options); };
 }
 

@@ -17,7 +17,7 @@ constexpr const char* kFooter =
     "  dressform run scenes/library/group1.toml -o runs/group1\n"
     "Exit codes: 0 success, 1 regression found by the gate, 2 usage or bad input, 3 missing, corrupt or obsolete "
     "golden,\n"
-    "4 crash inside a run.";
+    "4 crash inside a run, 5 the run ended but garments are missing from its out/ (the stage that lost them is named).";
 
 int run_program(int argc, char** argv) {
   CLI::App app{"dressform: four Kinect views of a dressed mannequin in, textured clothes resized to a customer out."};

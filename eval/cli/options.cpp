@@ -44,6 +44,30 @@ void add_choices(CLI::App& command, CommonOptions& options) {
       ->allow_extra_args(false);
 }
 
+namespace {
+
+// Fields as options: --name, with dashes.
+struct OptionFields {
+  CLI::App& command;
+  void operator()(const char* name, std::string& value, const std::vector<std::string>& choices, const char* doc) {
+    command.add_option(option(name), value, doc)->check(CLI::IsMember(choices));
+  }
+  void operator()(const char* name, double& value, double minimum, double maximum, const char*, const char* doc) {
+    command.add_option(option(name), value, doc)->check(CLI::Range(minimum, maximum));
+  }
+  static std::string option(std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
+    return "--" + name;
+  }
+};
+
+}  // namespace
+
+void add_mesh_frame(CLI::App& command, MeshFrame& frame) {
+  OptionFields options{command};
+  fields(options, frame);
+}
+
 void add_scene_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--seed", options.seed, "seed of all noise (default 1)");
   command.add_option("--scale", options.scale, "resolution of all cameras against the scene's, 0.1 to 1 (default 1)")

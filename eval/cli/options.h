@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "pipeline/reconstruct.h"
+#include "scenes/mesh_frame.h"
 #include "scenes/scene.h"
 
 namespace dressform {
 
 // Exit codes of the program, documented in README.md.
-enum ExitCode { kSuccess = 0, kRegression = 1, kBadInput = 2, kBadGolden = 3, kCrash = 4 };
+enum ExitCode { kSuccess = 0, kRegression = 1, kBadInput = 2, kBadGolden = 3, kCrash = 4, kGarmentsMissing = 5 };
 
 // Options that several commands share.
 struct CommonOptions {
@@ -25,6 +26,8 @@ void add_output(CLI::App& command, CommonOptions& options, const std::string& wh
 void add_threads(CLI::App& command, CommonOptions& options);
 void add_choices(CLI::App& command, CommonOptions& options);
 void add_scene_options(CLI::App& command, CommonOptions& options);
+// --unit, --up and --lift-m of meshes that are given on the command line.
+void add_mesh_frame(CLI::App& command, MeshFrame& frame);
 
 // --variant and --set, sorted by stage; "sensor" belongs to the scene's sensor model.
 struct Choices {

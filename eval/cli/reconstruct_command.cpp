@@ -21,8 +21,7 @@ int reconstruct_session(ReconstructOptions options) {
   Progress progress(options.quiet);
   EndToEndRequest request{options.session,        options.output, store_folder(options), name, variant_text(options),
                           choices.reconstruction, true,           threads.count()};
-  print_summary(run_end_to_end(request, end_to_end_progress(progress)));
-  return kSuccess;
+  return print_summary(run_end_to_end(request, end_to_end_progress(progress)));
 }
 
 Command add_reconstruct_command(CLI::App& app) {

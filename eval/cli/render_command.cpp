@@ -18,6 +18,7 @@ struct RenderOptionsCli {
   std::filesystem::path output;
   std::string shading = "auto", layout = "four";
   int height = 720;
+  MeshFrame frame;
 };
 
 const std::map<std::string, Shading> kShadings = {{"textured", Shading::textured},
@@ -30,32 +31,33 @@ bool wants_texture(const std::string& shading) { return shading == "textured" ||
 
 // Meshes that the items of an image point into.
 struct LoadedMeshes {
-  std::vector<std::unique_ptr<Mesh>> plain;
-  std::vector<std::unique_ptr<TexturedMesh>> textured;
+  std::vector<std::unique_ptr<TexturedMesh>> meshes;
   std::vector<RenderItem> items;
 
-  void load(const std::filesystem::path& file, const std::string& shading) {
+  void load(const std::filesystem::path& file, const std::string& shading, const MeshFrame& frame) {
     RenderItem item;
-    const bool try_texture = shading == "auto" || wants_texture(shading);
-    if (try_texture) try {
-        textured.push_back(std::make_unique<TexturedMesh>(read_textured_mesh(file)));
-        item.textured = textured.back().get();
-        item.shading = shading == "auto" ? Shading::textured : kShadings.at(shading);
-        items.push_back(item);
-        return;
-      } catch (const InputError&) {
-        if (shading != "auto") throw;  // asked for a texture that is not there
-      }
-    plain.push_back(std::make_unique<Mesh>(read_mesh(file)));
-    item.mesh = plain.back().get();
-    item.shading = shading == "auto" ? Shading::shaded : kShadings.at(shading);
+    auto mesh = std::make_unique<TexturedMesh>();
+    if (shading == "auto")
+      *mesh = read_mesh_as_it_looks(file);
+    else if (wants_texture(shading))
+      *mesh = read_textured_mesh(file);
+    else
+      mesh->mesh = read_mesh(file);
+    mesh->mesh = in_world(std::move(mesh->mesh), frame);
+    const bool has_texture = !mesh->texture.empty();
+    if (has_texture)
+      item.textured = mesh.get();
+    else
+      item.mesh = &mesh->mesh;
+    item.shading = shading != "auto" ? kShadings.at(shading) : has_texture ? Shading::textured : Shading::shaded;
+    meshes.push_back(std::move(mesh));
     items.push_back(item);
   }
 };
 
 int render_meshes(const RenderOptionsCli& options) {
   LoadedMeshes loaded;
-  for (const auto& file : options.meshes) loaded.load(file, options.shading);
+  for (const auto& file : options.meshes) loaded.load(file, options.shading, options.frame);
   Renderer renderer;
   const cv::Mat image = options.layout == "four" ? four_views(renderer, loaded.items, options.height)
                                                  : contact_sheet(renderer, loaded.items, 12, 6, options.height);
@@ -76,6 +78,7 @@ Command add_render_command(CLI::App& app) {
   command->add_option("--layout", options->layout, "four views side by side, or a turntable of twelve")
       ->check(CLI::IsMember({"four", "turntable"}));
   command->add_option("--height", options->height, "pixels of one view (default 720)")->check(CLI::Range(64, 4096));
+  add_mesh_frame(*command, options->frame);
   command->footer("Example:\n  dressform render runs/group1/out/naked_body.ply runs/group1/out/top.glb -o top.png");
   return [options] { return render_meshes(*options); };
 }

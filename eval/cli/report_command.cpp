@@ -48,8 +48,7 @@ int report_run(const ReportOptions& options) {
   request.threads = threads.count();
   fs::remove(options.run / "report.html");  // so that it is written again
   Progress progress(options.quiet);
-  print_summary(run_end_to_end(request, end_to_end_progress(progress)));
-  return kSuccess;
+  return print_summary(run_end_to_end(request, end_to_end_progress(progress)));
 }
 
 Command add_report_command(CLI::App& app) {

@@ -18,10 +18,9 @@ int run_scene_file(RunOptions options) {
   const Scene scene = chosen_scene(options.scene, options);
   if (options.output.empty()) options.output = std::filesystem::path("runs") / scene.name;
   Progress progress(options.quiet);
-  print_summary(run_scene({scene, options.scale, options.output, store_folder(options), variant_text(options),
-                           parse_choices(options).reconstruction, threads.count()},
-                          scene_progress(progress)));
-  return kSuccess;
+  return print_summary(run_scene({scene, options.scale, options.output, store_folder(options), variant_text(options),
+                                  parse_choices(options).reconstruction, threads.count()},
+                                 scene_progress(progress)));
 }
 
 Command add_run_command(CLI::App& app) {

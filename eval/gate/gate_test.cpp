@@ -6,17 +6,22 @@
 #include <fstream>
 #include <limits>
 
+#include "scenes/error.h"
+
 namespace dressform {
 namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kWaist = "fit bottom/ease_waist_change_mm@3", kRotation = "registration max/rotation_deg@1",
+                  kF = "surface top/f_5mm@1";
+
 Scores some_scores() {
   Scores scores{"group1", "default", 1, {}};
-  scores.rows = {{"registration", "k2/rotation_deg@1", "deg", 0.2, "ok", 10},
+  scores.rows = {{"registration", "max/rotation_deg@1", "deg", 0.2, "ok", 10},
                  {"surface", "top/f_5mm@1", "1", 0.93, "ok", 1000},
                  {"open", "top/loops@1", "count", 4, "ok", 1},
-                 {"fit", "bottom/ease_waist_change_mm@1", "mm", std::numeric_limits<double>::quiet_NaN(), "failed", 0}};
+                 {"fit", "bottom/ease_waist_change_mm@3", "mm", std::numeric_limits<double>::quiet_NaN(), "failed", 0}};
   return scores;
 }
 
@@ -28,7 +33,7 @@ GoldenCase some_case() {
   GoldenCase empty;
   empty.name = "group1";
   empty.scene = "scenes/library/group1.toml";
-  return accepted(empty, some_scores(), some_images(), "first");
+  return accepted(empty, some_scores(), some_images(), "first", {{kWaist, "no tape goes round it"}});
 }
 
 class GateFiles : public testing::Test {
@@ -51,7 +56,8 @@ TEST(Gate, TheSameRunPasses) {
 TEST(Gate, ANumberBeyondItsToleranceIsARegression) {
   for (std::size_t i = 0; i < 3; ++i) {
     auto scores = some_scores();
-    scores.rows[i].value += 1.5 * nuisance_tolerance(scores.rows[i]) + 1e-9;
+    const double worse = i == 1 ? -1 : 1;
+    scores.rows[i].value += worse * (1.5 * nuisance_tolerance(scores.rows[i]) + 1e-9);
     const auto result = compare_with_golden(some_case(), scores, some_images());
     EXPECT_EQ(result.verdict, GateVerdict::regression) << i;
     EXPECT_EQ(result.findings.size(), 1u);
@@ -69,6 +75,74 @@ TEST(Gate, MissingNumbersOtherStatusAndOtherImagesAreRegressions) {
   EXPECT_EQ(compare_with_golden(some_case(), some_scores(), {}).verdict, GateVerdict::regression);
 }
 
+TEST(Gate, ABetterNumberPassesAndAsksToBeAccepted) {
+  auto scores = some_scores();
+  scores.rows[0].value = 0.1;
+  scores.rows[1].value = 0.97;
+  const auto result = compare_with_golden(some_case(), scores, some_images());
+  EXPECT_EQ(result.verdict, GateVerdict::pass);
+  ASSERT_EQ(result.better.size(), 2u);
+  EXPECT_EQ(result.better[0].what, kRotation);
+  scores.rows[2].value = 3;  // a number of openings has no better direction
+  EXPECT_EQ(compare_with_golden(some_case(), scores, some_images()).verdict, GateVerdict::regression);
+}
+
+TEST(Gate, TargetsMetAndMissedAreTold) {
+  const auto result = compare_with_golden(some_case(), some_scores(), some_images());
+  ASSERT_EQ(result.targets.size(), 3u) << "one a row with a target";
+  EXPECT_EQ(result.targets[0].metric, kRotation);
+  EXPECT_TRUE(result.targets[0].met);
+  EXPECT_EQ(result.targets[0].target, "<= 0.5 deg");
+  EXPECT_EQ(result.targets[2].metric, kWaist);
+  EXPECT_FALSE(result.targets[2].met) << "what failed missed its target";
+  EXPECT_EQ(result.targets[2].known, "no tape goes round it");
+}
+
+TEST(Gate, ANewlyMissedTargetIsARegressionByNameHoweverSmallTheChange) {
+  GoldenCase golden = some_case();
+  auto scores = some_scores();
+  golden.scores[0].row.value = 0.495;
+  scores.rows[0].value = 0.505;  // within the nuisance of 0.02 degrees
+  const auto result = compare_with_golden(golden, scores, some_images());
+  EXPECT_EQ(result.verdict, GateVerdict::regression);
+  ASSERT_EQ(result.findings.size(), 1u);
+  EXPECT_EQ(result.findings[0].what, "target " + kRotation);
+  golden.known_misses[kRotation] = "the scan is short";
+  EXPECT_EQ(compare_with_golden(golden, scores, some_images()).verdict, GateVerdict::pass);
+}
+
+TEST(Gate, AKnownMissThatIsMetNowAsksToBeAccepted) {
+  GoldenCase golden = some_case();
+  golden.known_misses[kF] = "holes under the arms";
+  const auto result = compare_with_golden(golden, some_scores(), some_images());
+  EXPECT_EQ(result.verdict, GateVerdict::pass);
+  ASSERT_EQ(result.better.size(), 1u);
+  EXPECT_NE(result.better[0].message.find("holes under the arms"), std::string::npos);
+  EXPECT_EQ(accepted(golden, some_scores(), some_images(), "met").known_misses.count(kF), 0u);
+}
+
+TEST(Gate, AcceptWantsAReasonForEveryMiss) {
+  auto scores = some_scores();
+  scores.rows[1].value = 0.7;
+  try {
+    accepted(some_case(), scores, some_images(), "worse on purpose");
+    FAIL() << "a miss was accepted without a reason";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(kF + " (0.700, target >= 0.85)"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find(kWaist), std::string::npos) << "its reason is known";
+  }
+  const auto next = accepted(some_case(), scores, some_images(), "worse on purpose", {{kF, "coarser voxels"}});
+  EXPECT_EQ(next.known_misses,
+            (std::map<std::string, std::string>{{kF, "coarser voxels"}, {kWaist, "no tape goes round it"}}));
+  EXPECT_THROW(accepted(some_case(), scores, some_images(), "x", {{kF, "why"}, {kRotation, "not missed"}}), InputError);
+}
+
+TEST(Gate, ARowThatNobodyDeclaredCannotBeAccepted) {
+  auto scores = some_scores();
+  scores.rows.push_back({"fit", "new@1", "mm", 1, "ok", 1});
+  EXPECT_THROW(accepted(some_case(), scores, some_images(), "x"), std::logic_error);
+}
+
 TEST(Gate, NumbersThatTheReferenceDoesNotKnowMakeItObsolete) {
   auto more = some_scores();
   more.rows.push_back({"fit", "new@1", "mm", 1, "ok", 1});
@@ -79,7 +153,7 @@ TEST(Gate, AcceptTouchesOnlyWhatIsBeyondTolerance) {
   auto scores = some_scores();
   scores.rows[0].value += 0.1 * nuisance_tolerance(scores.rows[0]);  // would creep, were it accepted
   scores.rows[1].value = 0.5;
-  const auto next = accepted(some_case(), scores, some_images(), "worse on purpose");
+  const auto next = accepted(some_case(), scores, some_images(), "worse on purpose", {{kF, "on purpose"}});
   EXPECT_EQ(next.scores[0].row.value, 0.2);
   EXPECT_EQ(next.scores[1].row.value, 0.5);
   ASSERT_EQ(next.history.size(), 2u);
@@ -90,6 +164,7 @@ TEST_F(GateFiles, RoundTrip) {
   write_golden_case(golden_, some_case());
   const auto read = read_golden_case(golden_, "group1");
   EXPECT_EQ(compare_with_golden(read, some_scores(), some_images()).verdict, GateVerdict::pass);
+  EXPECT_EQ(read.known_misses, some_case().known_misses);
   EXPECT_EQ(golden_case_names(golden_), std::vector<std::string>{"group1"});
 }
 
@@ -106,8 +181,10 @@ TEST_F(GateFiles, MissingEmptyAndCorruptReferencesFail) {
   write_golden_case(golden_, some_case());
   fs::remove(golden_ / "group1/result.png");
   EXPECT_THROW(read_golden_case(golden_, "group1"), GoldenError);
-  auto other = some_case();
-  other.images = some_images(7);
+  auto without_reason = some_case();
+  without_reason.known_misses[kWaist] = "";
+  write_golden_case(golden_, without_reason);
+  EXPECT_THROW(read_golden_case(golden_, "group1"), GoldenError);
   write_golden_case(golden_, some_case());
   const auto bytes = fs::file_size(golden_ / "group1/result.png");
   fs::resize_file(golden_ / "group1/result.png", bytes / 2);

@@ -39,6 +39,7 @@ GoldenCase recipe_from(const json& text, const std::string& name) {
   result.scene = text.at("scene");
   result.scale = text.at("scale");
   result.seed = text.at("seed");
+  result.known_misses = text.value("known_misses", std::map<std::string, std::string>());
   result.history = text.value("history", std::vector<std::string>());
   return result;
 }
@@ -82,6 +83,10 @@ GoldenCase read_golden_case(const fs::path& golden, const std::string& name) {
   return reading(golden, name, [&](const json& text) {
     GoldenCase result = recipe_from(text, name);
     for (const auto& row : text.at("scores")) result.scores.push_back(score_from(row));
+    for (const auto& [metric, reason] : result.known_misses)
+      if (reason.empty())
+        throw GoldenError((golden / name / "golden.json").string() + ": known_misses." + metric +
+                          ": no reason; expected why the target is missed");
     if (result.scores.empty())
       throw GoldenError((golden / name / "golden.json").string() + ": empty; expected accepted scores");
     if (text.at("images").empty())
@@ -114,6 +119,7 @@ void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
                      {"scale", golden_case.scale},
                      {"seed", golden_case.seed},
                      {"history", golden_case.history},
+                     {"known_misses", golden_case.known_misses},
                      {"scores", scores},
                      {"images", images}};
   write_file_atomically(golden / golden_case.name / "golden.json", text.dump(1) + "\n");

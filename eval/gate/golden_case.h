@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/scores.h"
+#include "eval/score/scores.h"
 
 namespace dressform {
 
@@ -30,8 +30,9 @@ struct GoldenCase {
   double scale = 1;
   Seed seed = 1;
   std::vector<GoldenScore> scores;
-  std::map<std::string, cv::Mat> images;  // file stem -> 8-bit BGR
-  std::vector<std::string> history;       // why each accept was made, oldest first
+  std::map<std::string, cv::Mat> images;            // file stem -> 8-bit BGR
+  std::map<std::string, std::string> known_misses;  // "stage metric" of a target that is missed -> why
+  std::vector<std::string> history;                 // why each accept was made, oldest first
 };
 
 // How a case is to be run; read even where nothing has been accepted yet. Throws GoldenError naming the file.

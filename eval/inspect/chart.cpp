@@ -188,6 +188,14 @@ cv::Mat chart_image(const Chart& chart) {
   return canvas.image();
 }
 
+Chart empty_chart(const std::string& name, const std::string& title, const std::string& caption, const Axis& x,
+                  const Axis& y) {
+  Chart chart;
+  chart.name = name, chart.title = title, chart.caption = caption;
+  chart.x = x, chart.y = y;
+  return chart;
+}
+
 Axis axis_around(const Chart& chart, const std::string& label) {
   double least = 0, most = 0;
   const auto hold = [&](double value) {

@@ -51,6 +51,22 @@ struct Chart {
   std::vector<Whiskers> whiskers;
 };
 
+// A chart without anything in it yet.
+Chart empty_chart(const std::string& name, const std::string& title, const std::string& caption, const Axis& x,
+                  const Axis& y = {});
+
+// A line through 81 values of a published function: dashed where nobody is judged by it.
+template <class Function>
+Curve reference_curve(const std::string& name, double from, double to, const Function& value,
+                      Curve::Style style = Curve::line) {
+  Curve curve{name, style, 0, {}};
+  for (int i = 0; i <= 80; ++i) {
+    const double x = from + (to - from) * i / 80;
+    curve.points.push_back({x, value(x)});
+  }
+  return curve;
+}
+
 std::string chart_svg(const Chart& chart);
 // 8-bit BGR, twice as many pixels as the SVG has units.
 cv::Mat chart_image(const Chart& chart);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -157,12 +159,9 @@ std::vector<StillRun> still_runs(const std::vector<cv::Mat>& frames) {
 }
 
 double median_sigma_mm(const std::vector<SmoothWindow>& windows) {
-  if (windows.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   for (const auto& window : windows) values.push_back(window.sigma_mm);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median_or(std::move(values), std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace dressform

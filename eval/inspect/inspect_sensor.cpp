@@ -13,19 +13,13 @@ struct Part {
   bool without_noise = false;
 };
 
-bool has_parameter(const std::string& model, const std::string& name) {
-  for (const auto& field : SensorModel::at(model).fields)
-    if (field.name == name) return true;
-  return false;
-}
-
 std::vector<Part> parts_of(const std::string& model) {
   std::vector<Part> parts{{"noise by distance", sigma_by_distance}, {"noise by incidence", sigma_by_angle},
                           {"noise by albedo", sigma_by_albedo},     {"holes", holes_by_angle},
                           {"flying pixels", flying_by_gap},         {"correlation", autocorrelation},
                           {"decoding", decoding_by_distance, true}};
-  if (has_parameter(model, "clip")) parts.push_back({"wiggling", wiggling, true});
-  if (model == "kinect_v1") parts.push_back({"levels", levels});
+  if (!those_it_has(model, {{"clip", 1.0}}).empty()) parts.push_back({"wiggling", wiggling, true});
+  if (device_of(model).levels_mm) parts.push_back({"levels", levels});
   return parts;
 }
 

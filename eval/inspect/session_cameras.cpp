@@ -1,6 +1,6 @@
 #include "eval/inspect/session_cameras.h"
 
-#include "synthetic/sensors/noise_statistics.h"
+#include "scenes/devices/device.h"
 
 namespace dressform {
 
@@ -11,14 +11,12 @@ InspectedSensor inspected_sensor(const CaptureSession& session, const std::strin
   }
   InspectedSensor result;
   result.nominal = true;
-  for (const char* model : {"kinect_v2", "kinect_v1"}) {
-    const Camera camera = usual_camera(model);
-    if (camera.width != depth_size.width || camera.height != depth_size.height) continue;
-    result.calibration.model = model;
-    result.calibration.ir = camera;
+  if (const SensorDevice* device = find_device(depth_size.width, depth_size.height)) {
+    result.calibration.model = device->name;
+    result.calibration.ir = device->ir_camera;
     return result;
   }
-  const double focal_px = 0.75 * depth_size.width;
+  const double focal_px = 0.75 * depth_size.width;  // about 67 degrees wide, between the two Kinects
   result.calibration.ir = Camera{depth_size.width,
                                  depth_size.height,
                                  focal_px,

@@ -89,13 +89,14 @@ InspectionSection shots_section(const std::string& name, const std::vector<std::
     titles.push_back(sensor);
     depth.push_back(&shot.depth_mm);
     if (!shot.color.empty()) color.push_back({sensor, shot.color});
-    infrared.push_back({sensor, infrared_image(shot.ir)});
+    if (!shot.ir.empty()) infrared.push_back({sensor, infrared_image(shot.ir)});
     if (!shot.body_index.empty()) bodies.push_back({sensor, index_colors(shot.body_index)});
   }
   if (!color.empty()) section.figures.push_back({name + "_color", "Colour", "As captured.", sheet(color, 2, 340)});
   section.figures.push_back(depth_figure(name + "_depth", "Depth", titles, depth, 4, 300));
-  section.figures.push_back(
-      {name + "_ir", "Infrared", "Stretched to the 99th percentile of each.", sheet(infrared, 4, 300)});
+  if (!infrared.empty())
+    section.figures.push_back(
+        {name + "_ir", "Infrared", "Stretched to the 99th percentile of each.", sheet(infrared, 4, 300)});
   if (!bodies.empty())
     section.figures.push_back(
         {name + "_body_index", "Body index", "One colour a body; dark: none.", sheet(bodies, 4, 300)});

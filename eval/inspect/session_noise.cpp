@@ -4,113 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 
 #include "eval/inspect/depth_edges.h"
-#include "eval/inspect/depth_noise.h"
-#include "eval/inspect/session_cameras.h"
-#include "synthetic/sensors/noise_references.h"
+#include "eval/inspect/noise_views.h"
+#include "scenes/devices/device.h"
 
 namespace dressform {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kFacing = 30 * kDegree;
-constexpr int kLeastWindows = 8;  // for a point of a chart
+constexpr int kLeastWindows = 8;        // for a point of a chart
+constexpr int kEveryMillimetre = 1500;  // of the 3000 between 1 and 4 m: more are no steps
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// One view: frames from one place, of one sensor.
-struct View {
-  Camera camera;
-  std::vector<cv::Mat> frames;
-};
-
-// All depth of one sensor model.
-struct ModelViews {
-  std::vector<View> views;
-  int frames = 0, repeated = 0;  // repeated: of views that were taken more than once
-  bool nominal = false;
-};
-
-void add_view(std::map<std::string, ModelViews>& models, const CaptureSession& session, const std::string& sensor,
-              const std::vector<cv::Mat>& frames) {
-  const InspectedSensor inspected = inspected_sensor(session, sensor, frames.front().size());
-  ModelViews& model = models[inspected.calibration.model.empty() ? "unknown" : inspected.calibration.model];
-  model.views.push_back({inspected.calibration.ir, frames});
-  model.frames += static_cast<int>(frames.size());
-  model.nominal = model.nominal || inspected.nominal;
-  if (frames.size() > 1) model.repeated += static_cast<int>(frames.size());
-}
-
-// A sensor of the rig stands still between its naked and its dressed shot: the room is seen twice. Of a scan, each run
-// from one place is a view; all other frames, up to thirty evenly spread, are views of their own.
-std::map<std::string, ModelViews> views_by_model(const CaptureSession& session) {
-  std::map<std::string, ModelViews> models;
-  for (const auto& sensor : session.sensors) {
-    std::vector<cv::Mat> frames;
-    for (const auto* shots : {&session.naked, &session.dressed})
-      if (const auto found = shots->find(sensor); found != shots->end()) frames.push_back(found->second.depth_mm);
-    if (!frames.empty()) add_view(models, session, sensor, frames);
-    if (session.boards && session.boards->shots.count(sensor))
-      for (const auto& shot : session.boards->shots.at(sensor)) add_view(models, session, sensor, {shot.depth_mm});
-  }
-  for (const auto& [name, scan] : session.scans) {
-    const auto runs = still_runs(scan.depth_mm);
-    for (const auto& run : runs) {
-      const auto first = scan.depth_mm.begin() + run.first;
-      add_view(models, session, scan.sensor, {first, first + std::min(run.frames, 100)});
-    }
-    const std::size_t step = std::max<std::size_t>(1, scan.depth_mm.size() / 30);
-    if (runs.empty())
-      for (std::size_t i = 0; i < scan.depth_mm.size(); i += step)
-        add_view(models, session, scan.sensor, {scan.depth_mm[i]});
-  }
-  return models;
-}
-
-struct Windows {
-  std::vector<SmoothWindow> space, time;
-};
-Windows windows_of(const ModelViews& model) {
-  Windows windows;
-  for (const auto& view : model.views) {
-    const auto space = smooth_windows(view.frames.front(), view.camera);
-    windows.space.insert(windows.space.end(), space.begin(), space.end());
-    const auto time = windows_over_time(view.frames, view.camera);
-    windows.time.insert(windows.time.end(), time.begin(), time.end());
-  }
-  return windows;
-}
-
-std::vector<SmoothWindow> chosen(const std::vector<SmoothWindow>& windows, double from_m, double to_m, double from_rad,
-                                 double to_rad) {
-  std::vector<SmoothWindow> result;
-  for (const auto& window : windows)
-    if (window.z_m >= from_m && window.z_m < to_m && window.theta_rad >= from_rad && window.theta_rad < to_rad)
-      result.push_back(window);
-  return result;
-}
-
-long pixels_of(const std::vector<SmoothWindow>& windows) {
-  long pixels = 0;
-  for (const auto& window : windows) pixels += window.pixels.area();
-  return pixels;
-}
-
-bool has_reference(const std::string& model) { return model == "kinect_v1" || model == "kinect_v2"; }
-
-double reference_mm(const std::string& model, double z_m, double theta_rad) {
-  return model == "kinect_v1" ? nguyen_sigma_mm(z_m, theta_rad) : fankhauser_sigma_mm(z_m, theta_rad);
-}
-
-Curve reference_curve(const std::string& name, double from, double to, const std::function<double(double)>& value) {
-  Curve curve{name, Curve::line, 0, {}};
-  for (int i = 0; i <= 80; ++i) {
-    const double x = from + (to - from) * i / 80;
-    curve.points.push_back({x, value(x)});
-  }
-  return curve;
+// What the device's published noise is at an incidence; NaN where nothing was published.
+double reference_mm(const SensorDevice* device, double z_m, double theta_rad) {
+  const PublishedNoise* curve = device ? device->noise_by_angle() : nullptr;
+  return curve ? curve->sigma_mm(z_m, theta_rad) : kNone;
 }
 
 Finding plain(const std::string& what, const std::string& unit, double measured, double reference, long pixels) {
@@ -121,24 +32,17 @@ Finding plain(const std::string& what, const std::string& unit, double measured,
 }
 
 void add_distance_chart(InspectionSection& section, const std::string& model, const Windows& windows) {
-  Chart chart{
-      "noise_distance_" + model,
-      "Noise by distance, surfaces within 30 degrees of facing",
+  Chart chart = empty_chart(
+      "noise_distance_" + model, "Noise by distance, surfaces within 30 degrees of facing",
       "Median over windows of 15 x 15 pixels, by half metres. Unjudged: the scene's albedo and roughness are in "
       "it, and noise that many neighbours share goes into the windows' planes.",
-      {"distance [m]", 0, 5},
-      {},
-      {},
-      {},
-      {}};
-  if (model == "kinect_v1") {
-    chart.curves.push_back(reference_curve("Khoshelham 2012", 0.5, 5, khoshelham_sigma_mm));
-    chart.curves.push_back(reference_curve("Nguyen 2012", 0.5, 5, [](double z) { return nguyen_sigma_mm(z, 0); }));
-    chart.curves.back().style = Curve::dashed;
-  } else if (model == "kinect_v2") {
-    chart.curves.push_back(
-        reference_curve("Fankhauser 2015", 0.5, 5, [](double z) { return fankhauser_sigma_mm(z, 0); }));
-  }
+      {"distance [m]", 0, 5});
+  const SensorDevice* device = find_device(model);
+  if (device)
+    for (const auto& curve : device->noise)
+      chart.curves.push_back(reference_curve(
+          curve.name, 0.5, 5, [&](double z) { return curve.sigma_mm(z, 0); },
+          chart.curves.empty() ? Curve::line : Curve::dashed));
   int color = 1;
   for (const auto& [name, kind] :
        {std::pair("from pixel to pixel", &windows.space), {"from frame to frame", &windows.time}}) {
@@ -151,8 +55,7 @@ void add_distance_chart(InspectionSection& section, const std::string& model, co
       const double sigma_mm = median_sigma_mm(part);
       curve.points.push_back({z_m, sigma_mm});
       section.findings.push_back(plain(fmt::format("sigma {}, {:.1f} to {:.1f} m", name, from_m, from_m + 0.5), "mm",
-                                       sigma_mm, has_reference(model) ? reference_mm(model, z_m, 0) : kNone,
-                                       pixels_of(part)));
+                                       sigma_mm, reference_mm(device, z_m, 0), pixels_of(part)));
     }
     if (!curve.points.empty()) chart.curves.push_back(curve);
   }
@@ -170,20 +73,16 @@ void add_angle_chart(InspectionSection& section, const std::string& model, const
   if (most == 0) return;
   double z_m = 0;
   for (const auto& window : chosen(windows.space, from_m, from_m + 1, 0, M_PI / 2)) z_m += window.z_m / most;
-  Chart chart{
-      "noise_angle_" + model,
-      fmt::format("Noise by incidence, {:.1f} to {:.1f} m", from_m, from_m + 1),
+  Chart chart = empty_chart(
+      "noise_angle_" + model, fmt::format("Noise by incidence, {:.1f} to {:.1f} m", from_m, from_m + 1),
       fmt::format(
           "Median over windows of 15 x 15 pixels, by 10 degrees; the curve is for their mean distance, {:.2f} m.", z_m),
-      {"incidence θ [deg]", 0, 90},
-      {"σ of depth [mm]", 0.5, 50, true},
-      {},
-      {},
-      {}};
-  if (has_reference(model))
-    chart.curves.push_back(
-        reference_curve(model == "kinect_v1" ? "Nguyen 2012" : "Fankhauser 2015", 0, 85,
-                        [&](double degrees) { return reference_mm(model, z_m, degrees * kDegree); }));
+      {"incidence θ [deg]", 0, 90}, {"σ of depth [mm]", 0.5, 50, true});
+  const SensorDevice* device = find_device(model);
+  const PublishedNoise* reference = device ? device->noise_by_angle() : nullptr;
+  if (reference)
+    chart.curves.push_back(reference_curve(
+        reference->name, 0, 85, [&](double degrees) { return reference->sigma_mm(z_m, degrees * kDegree); }));
   int color = 1;
   for (const auto& [name, kind] :
        {std::pair("from pixel to pixel", &windows.space), {"from frame to frame", &windows.time}}) {
@@ -194,9 +93,8 @@ void add_angle_chart(InspectionSection& section, const std::string& model, const
       double theta_rad = 0;
       for (const auto& window : part) theta_rad += window.theta_rad / part.size();
       curve.points.push_back({theta_rad / kDegree, median_sigma_mm(part)});
-      section.findings.push_back(
-          plain(fmt::format("sigma {}, {} to {} degrees", name, degrees, degrees + 10), "mm", median_sigma_mm(part),
-                has_reference(model) ? reference_mm(model, z_m, theta_rad) : kNone, pixels_of(part)));
+      section.findings.push_back(plain(fmt::format("sigma {}, {} to {} degrees", name, degrees, degrees + 10), "mm",
+                                       median_sigma_mm(part), reference_mm(device, z_m, theta_rad), pixels_of(part)));
     }
     if (!curve.points.empty()) chart.curves.push_back(curve);
   }
@@ -206,14 +104,12 @@ void add_angle_chart(InspectionSection& section, const std::string& model, const
 void add_correlation_chart(InspectionSection& section, const std::string& model, const Windows& windows) {
   const auto facing = chosen(windows.space, 0, 100, 0, kFacing);
   if (static_cast<int>(facing.size()) < kLeastWindows) return;
-  Chart chart{"noise_correlation_" + model,
-              "Noise shared by neighbours, facing surfaces",
-              "Correlation of residuals so many columns apart, pooled over windows; the plane takes away a little.",
-              {"lag [px]", 0, 4},
-              {"correlation", -0.2, 1},
-              {},
-              {},
-              {}};
+  Chart chart =
+      empty_chart("noise_correlation_" + model, "Noise shared by neighbours, facing surfaces",
+                  "Correlation of residuals so many columns apart, pooled over windows; the plane takes away a little.",
+                  {"lag [px]", 0, 4}, {"correlation", -0.2, 1});
+  std::vector<ExpectedFigure> expected;
+  if (const SensorDevice* device = find_device(model)) expected = device->correlation;
   Curve curve{"from pixel to pixel", Curve::dotted_line, 1, {}};
   for (int lag = 0; lag <= kNoiseLags; ++lag) {
     double product = 0, square = 0;
@@ -221,31 +117,25 @@ void add_correlation_chart(InspectionSection& section, const std::string& model,
       if (window.products_mm2[0] > 0) product += window.products_mm2[lag] / window.products_mm2[0], square += 1;
     if (square == 0) return;  // no noise at all
     curve.points.push_back({static_cast<double>(lag), product / square});
+    const auto known =
+        std::find_if(expected.begin(), expected.end(), [&](const auto& figure) { return figure.at == lag; });
     if (lag > 0)
       section.findings.push_back(plain(fmt::format("autocorrelation at lag {}", lag), "", product / square,
-                                       model == "kinect_v2" ? (lag == 1   ? 0.68
-                                                               : lag == 2 ? 0.31
-                                                                          : 0.0)
-                                                            : kNone,
-                                       pixels_of(facing)));
+                                       known == expected.end() ? kNone : known->value, pixels_of(facing)));
   }
   chart.curves.push_back(curve);
-  if (model == "kinect_v2")
-    chart.whiskers.push_back({"sensor model's target", 0, {{1, .63, .68, .73}, {2, .26, .31, .36}, {3, -.06, 0, .06}}});
+  Whiskers target{"sensor model's target", 0, {}};
+  for (const auto& figure : expected) target.marks.push_back({figure.at, figure.low, figure.value, figure.high});
+  if (!expected.empty()) chart.whiskers.push_back(target);
   section.charts.push_back(chart);
 }
 
 void add_edge_chart(InspectionSection& section, const std::string& model, const ModelViews& views) {
   std::vector<DepthEdges> edges;
   for (const auto& view : views.views) count_edges(view.frames.front(), edges);
-  Chart chart{"edges_" + model,
-              "Depth edges",
-              "Pixels between two surfaces in a row of the image, per crossing of a contour.",
-              {"step in depth [m]", 0.1, 3.2, true},
-              {},
-              {},
-              {},
-              {}};
+  Chart chart = empty_chart("edges_" + model, "Depth edges",
+                            "Pixels between two surfaces in a row of the image, per crossing of a contour.",
+                            {"step in depth [m]", 0.1, 3.2, true});
   Curve flying{"flying: depth of neither side", Curve::dotted_line, 1, {}}, lost{"no depth", Curve::dotted_line, 2, {}};
   for (const auto& edge : edges) {
     if (edge.crossings < 30) continue;
@@ -279,18 +169,14 @@ void add_level_chart(InspectionSection& section, const std::string& model, const
     before = mm, ++levels;
   }
   if (levels < 20) return;
-  section.findings.push_back(
-      plain("depths that occur between 1 and 4 m", "", levels, model == "kinect_v1" ? 259 : kNone, 0));
-  if (levels > 1500 && model != "kinect_v1") return;
-  Chart chart{"levels_" + model,
-              "Depths that occur",
-              "Step from one depth that occurs in the session to the next.",
-              {"distance [m]", 1, 4},
-              {},
-              {},
-              {},
-              {}};
-  if (model == "kinect_v1") chart.curves.push_back(reference_curve("z² / 345489 mm", 1, 4, kinect_v1_step_mm));
+  const SensorDevice* device = find_device(model);
+  const bool stepped = device && device->levels_mm;
+  section.findings.push_back(plain("depths that occur between 1 and 4 m", "", levels,
+                                   stepped ? static_cast<double>(device->levels_mm(1000, 4000).size()) : kNone, 0));
+  if (levels > kEveryMillimetre && !stepped) return;
+  Chart chart = empty_chart("levels_" + model, "Depths that occur",
+                            "Step from one depth that occurs in the session to the next.", {"distance [m]", 1, 4});
+  if (stepped) chart.curves.push_back(reference_curve("steps of " + model, 1, 4, device->step_mm));
   chart.curves.push_back(steps);
   chart.y = axis_around(chart, "step [mm]");
   section.charts.push_back(chart);
@@ -306,8 +192,14 @@ std::string summary_of(const std::string& model, const ModelViews& views, const 
         views.repeated, windows.time.size(), pixels_of(windows.time));
   else
     text += " No view was taken more than once, so noise from frame to frame is not known.";
+  if (views.copies > 0)
+    text += fmt::format(
+        " {} frames are identical to an earlier one of their view, bit for bit, and were left out: copies "
+        "tell nothing of noise.",
+        views.copies);
   if (views.nominal) text += " Not calibrated: the usual camera of this image size.";
-  if (!has_reference(model)) text += " No published curve for this sensor.";
+  if (const SensorDevice* device = find_device(model); !device || device->noise.empty())
+    text += " No published curve for this sensor.";
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eval/inspect/session_cameras.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -36,9 +37,8 @@ Vector3f seen_color(const SensorCalibration& sensor, const Shot& shot, const Vec
 double brightest_of(const cv::Mat& ir) {
   if (ir.empty()) return 1;
   std::vector<std::uint16_t> values(ir.begin<std::uint16_t>(), ir.end<std::uint16_t>());
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 98 / 100);
-  std::nth_element(values.begin(), at, values.end());
-  return std::max<double>(1, *at);
+  const std::size_t place = values.size() * 98 / 100;
+  return std::max<double>(1, nth_value(std::move(values), place));
 }
 
 // Points of a shot in the frame of `frame_from_sensor`; one cloud in `plain`, another in the colours seen.

@@ -3,7 +3,7 @@
 #include "eval/metrics/mesh_distance.h"
 #include "eval/metrics/sampling.h"
 #include "eval/metrics/surface_metrics.h"
-#include "eval/metrics/test_meshes.h"
+#include "eval/testing/test_meshes.h"
 
 namespace dressform::metrics {
 namespace {

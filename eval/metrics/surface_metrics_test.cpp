@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "eval/metrics/test_meshes.h"
+#include "eval/testing/test_meshes.h"
 #include "scenes/random.h"
 
 namespace dressform::metrics {

@@ -70,8 +70,10 @@ std::vector<Figure> error_figures(const Reconstruction& made, const GroundTruth&
   const auto first = made.sensors.empty() ? poses.end() : poses.find(made.sensors.front());
   if (first == poses.end() || !truth.world_from_sensor.count(made.sensors.front())) return figures;
   const Isometry3d world_from_model = truth.world_from_sensor.at(made.sensors.front()) * first->second.inverse();
-  figures.push_back(heat_map("error_body", "Scanned mannequin", moved(made.naked.get().body, world_from_model),
-                             truth.naked_body, renderer));
+  const Mesh& body = made.naked.get().body;
+  if (!body.triangles.empty() && !truth.naked_body.triangles.empty())
+    figures.push_back(
+        heat_map("error_body", "Scanned mannequin", moved(body, world_from_model), truth.naked_body, renderer));
   for (const auto& [slot, garment] : made.textured.get().garments) {
     const auto real = truth.garments.find(slot);
     if (real == truth.garments.end()) continue;

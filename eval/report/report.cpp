@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/report/error_images.h"
 #include "eval/report/html.h"
 #include "eval/report/score_table.h"
 #include "eval/report/stage_images.h"
+#include "eval/report/stage_words.h"
 #include "pipeline/run/artifact_store.h"
 #include "render/renderer.h"
 #include "scenes/file_bytes.h"
@@ -24,6 +24,7 @@ const std::map<std::string, std::string> kStageTitles = {{"capture", "Capture"},
                                                          {"fuse_naked", "Scan of the mannequin"},
                                                          {"extract", "Mannequin from the room"},
                                                          {"registration", "Registration"},
+                                                         {"landmarks_naked", "Landmarks"},
                                                          {"segment", "Segmentation"},
                                                          {"fill", "Region filling"},
                                                          {"surface", "Surface"},
@@ -40,13 +41,14 @@ void add_scores(HtmlPage& page, const ReportInput& input) {
     return;
   }
   const auto lines = score_lines(*input.scores);
-  const int missed =
-      static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.missed(); }));
-  const int judged =
-      static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.judged(); }));
-  page.verdict(
-      missed ? fmt::format("{} of {} targets missed", missed, judged) : fmt::format("All {} targets met", judged),
-      missed == 0);
+  const std::optional<double> scale =
+      input.facts.contains("scale") ? input.facts["scale"].get<double>() : std::optional<double>();
+  const TargetCount count = count_targets(lines, scale);
+  std::string verdict = count.missed ? fmt::format("{} of {} targets missed", count.missed, count.judged)
+                                     : fmt::format("All {} targets met", count.judged);
+  if (count.missed_below_scale)
+    verdict += fmt::format(", {} of them meant to hold at a larger scale than {:g}", count.missed_below_scale, *scale);
+  page.verdict(verdict, count.missed == 0);
   std::vector<std::vector<Cell>> rows;
   for (const auto& line : lines)
     rows.push_back({{line.part, ""},
@@ -88,44 +90,10 @@ void add_costs(HtmlPage& page, const ReportInput& input) {
   page.paragraph("Seconds of the run that made each result; a result found in the store cost nothing now.");
 }
 
-std::string word_of(const Multipath& multipath) {
-  const auto sentence = [](const std::string& images, const BounceStrength& strength) {
-    return strength.images == 0
-               ? ""
-               : fmt::format("Bounced light in {}: the floor shows {:.2f} +- {:.2f} of what is predicted, {}. ", images,
-                             strength.measured, strength.sigma, strength.factor > 0 ? "taken off" : "left alone");
-  };
-  std::string text = sentence("the shots", multipath.shots);
-  for (const auto& [name, strength] : multipath.scans) text += sentence(name, strength);
-  return text;
-}
-
-// Numbers a stage reports of itself, with no truth.
-std::string own_word(const ReportInput& input, const std::string& label) {
-  const auto& made = input.reconstruction;
-  const auto scan = [](const BodyModel& model) {
-    return fmt::format("{} frames, loop closed to {:.1f} mm, residual {:.1f} mm, {}; {} vertices, {} triangles.",
-                       model.frames_used, 1000 * model.loop_closure_m, 1000 * model.residual_rms_m,
-                       model.converged ? "converged" : "NOT converged", model.body.vertices.size(),
-                       model.body.triangles.size());
-  };
-  if (label == "capture") return word_of(made.multipath.get());
-  if (label == "fuse_naked") return scan(made.naked.get());
-  if (label == "fuse_user") return scan(made.user->get());
-  if (label == "registration") {
-    std::string text;
-    const auto& registration = made.registration.get();
-    for (const auto& [sensor, converged] : registration.converged)
-      text += !converged ? fmt::format("{}: NOT converged. ", sensor)
-                         : fmt::format("{}: residual {:.1f} mm on {} points. ", sensor,
-                                       1000 * registration.residual_rms_m.at(sensor), registration.inliers.at(sensor));
-    return text;
-  }
-  if (label == "fit")
-    return fmt::format("{} control points; deformed mannequin to user {:.1f} mm rms; {} folded triangles.",
-                       made.fitted->get().control_points, 1000 * made.fitted->get().body_rms_m,
-                       made.fitted->get().foldovers);
-  return {};
+// The first lines: which stages failed and why.
+void add_problems(HtmlPage& page, const ReportInput& input) {
+  for (const auto& problem : input.problems)
+    page.verdict((problem.garment_missing ? "Garment missing. " : "Failed. ") + problem.text(), false);
 }
 
 void add_stages(HtmlPage& page, const ReportInput& input, const std::vector<StageFigures>& stages) {
@@ -133,7 +101,7 @@ void add_stages(HtmlPage& page, const ReportInput& input, const std::vector<Stag
   for (const auto& stage : stages) {
     const auto title = kStageTitles.find(stage.label);
     page.subheading(title == kStageTitles.end() ? stage.label : title->second);
-    if (const std::string text = own_word(input, stage.label); !text.empty()) page.paragraph(text);
+    if (const std::string text = stage_words(input.reconstruction, stage.label); !text.empty()) page.paragraph(text);
     for (const auto& figure : stage.figures) page.figure(figure);
   }
 }
@@ -161,6 +129,7 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   HtmlPage page("dressform: " + input.facts.value("scene", std::string("run")));
   page.paragraph(fmt::format("Seed {}, variants: {}.", input.facts.value("seed", Seed{0}),
                              input.facts.value("variant", std::string("default"))));
+  add_problems(page, input);
   page.heading("Result", "result");
   for (const auto& figure : results) page.figure(figure);
   add_scores(page, input);

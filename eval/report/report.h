@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/scores.h"
+#include "eval/run/stage_problems.h"
+#include "eval/score/scores.h"
 #include "pipeline/reconstruct.h"
 #include "scenes/ground_truth.h"
 
@@ -17,6 +18,7 @@ struct ReportInput {
   const std::optional<Scores>& scores;
   const GroundTruth* truth;  // null for a recording
   const nlohmann::json& facts;
+  const std::vector<StageProblem>& problems;
 };
 
 // Writes report.html (self-contained: opens from disk, fetches nothing) and renders/*.png into the run folder. Returns

@@ -1,6 +1,8 @@
 #include "eval/report/stage_images.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "eval/report/turned.h"
@@ -10,7 +12,7 @@ namespace {
 
 constexpr int kHeight = 420;
 const cv::Scalar kSkinColor(150, 190, 235), kTopColor(200, 120, 40), kBottomColor(60, 160, 60);
-const Eigen::Vector3f kBodyColor(0.86f, 0.80f, 0.74f), kGarmentColor(0.55f, 0.66f, 0.82f);
+const Eigen::Vector3f kGarmentColor(0.55f, 0.66f, 0.82f);
 
 // Distinct colours for the views, RGB.
 Eigen::Vector3f view_color(int view) {
@@ -40,6 +42,15 @@ cv::Mat color_of(const std::map<std::string, Shot>& shots, const std::string& se
   return found == shots.end() ? cv::Mat() : found->second.color;
 }
 
+// The sensors that a picture shows nothing of, as the end of its caption.
+std::string without(const Reconstruction& reconstruction, const std::string& why,
+                    const std::function<bool(const std::string& sensor)>& shown) {
+  std::string names;
+  for (const auto& sensor : reconstruction.sensors)
+    if (!shown(sensor)) names += (names.empty() ? "" : ", ") + sensor;
+  return names.empty() ? "" : " " + why + ": " + names + ".";
+}
+
 std::vector<Figure> capture_figures(const Reconstruction& reconstruction, const CaptureSession& session) {
   std::vector<Figure> figures;
   for (const auto& [name, shots] : {std::pair("naked", &session.naked), std::pair("dressed", &session.dressed)}) {
@@ -67,7 +78,8 @@ std::vector<Figure> body_figures(const BodyModel& model, double heading, const s
   dots.shading = Shading::points;
   dots.color = view_color(0);
   std::vector<Figure> figures;
-  add(figures, name + "_body", "body model", "Closed mesh from the scan: front, left, back, right.",
+  if (body.triangles.empty()) return {};
+  add(figures, name + "_body", "body model", "Mesh from the scan: front, left, back, right.",
       four_views(renderer, {item}, kHeight));
   if (!path.points.empty()) {
     const Vector3d reach(2.4, 2.2, 2.4);
@@ -80,8 +92,11 @@ std::vector<Figure> body_figures(const BodyModel& model, double heading, const s
 
 std::vector<Figure> extract_figures(const Reconstruction& reconstruction, const CaptureSession& session) {
   const auto& views = reconstruction.extracted.get().views;
+  const std::string missing = without(reconstruction, "Not found in", [&](const auto& sensor) {
+    return views.count(sensor) && views.at(sensor).found_dressed;
+  });
   std::vector<Figure> figures;
-  add(figures, "extract_dressed", "dressed mannequin", "The mask of the dressed mannequin, tinted.",
+  add(figures, "extract_dressed", "dressed mannequin", "The mask of the dressed mannequin, tinted." + missing,
       per_view(reconstruction, [&](const auto& sensor) {
         const auto found = views.find(sensor);
         const cv::Mat color = color_of(session.dressed, sensor);
@@ -125,18 +140,33 @@ std::vector<Figure> registration_figures(const Reconstruction& reconstruction, c
   points.shading = Shading::points;
   mesh.mesh = &body;
   mesh.color = kBodyColor;
-  add(figures, "registration_points", "registered views", "The naked views in the model frame, one colour a sensor.",
-      four_views(renderer, {points}, kHeight));
+  const auto& poses = reconstruction.registration.get().model_from_sensor;
+  const std::string missing =
+      without(reconstruction, "Not registered", [&](const auto& sensor) { return poses.count(sensor) > 0; });
+  add(figures, "registration_points", "registered views",
+      "The naked views in the model frame, one colour a sensor." + missing, four_views(renderer, {points}, kHeight));
   add(figures, "registration_on_model", "on the model", "The same points on the scanned model.",
       four_views(renderer, {points, mesh}, kHeight));
   return figures;
 }
 
+// Names the labels that are there.
+std::string labels_caption(const std::map<std::string, cv::Mat>& labels) {
+  std::string text;
+  for (const auto& [name, label] : {std::pair("skin (beige)", Label::skin), std::pair("top (blue)", Label::top),
+                                    std::pair("bottom (green)", Label::bottom)})
+    if (std::any_of(labels.begin(), labels.end(), [wanted = static_cast<int>(label)](const auto& each) {
+          return cv::countNonZero(each.second == wanted) > 0;
+        }))
+      text += (text.empty() ? "" : ", ") + std::string(name);
+  if (text.empty()) return "Neither skin nor clothes were found on the dressed views.";
+  return "On the dressed views, cropped: " + text + ".";
+}
+
 std::vector<Figure> segment_figures(const Reconstruction& reconstruction, const CaptureSession& session) {
   const auto& labels = reconstruction.segmentation.get().labels;
   std::vector<Figure> figures;
-  add(figures, "segment_labels", "labels", "Skin (beige), top (blue), bottom (green) on the dressed views, cropped.",
-      per_view(reconstruction, [&](const auto& sensor) {
+  add(figures, "segment_labels", "labels", labels_caption(labels), per_view(reconstruction, [&](const auto& sensor) {
         const auto found = labels.find(sensor);
         cv::Mat image = color_of(session.dressed, sensor);
         if (found == labels.end() || image.empty()) return cv::Mat();
@@ -207,6 +237,7 @@ std::vector<StageFigures> stage_figures(const Reconstruction& reconstruction, co
   stages.push_back({"fuse_naked", body_figures(reconstruction.naked.get(), heading, "fuse_naked", renderer)});
   stages.push_back({"extract", extract_figures(reconstruction, session)});
   stages.push_back({"registration", registration_figures(reconstruction, session, heading, renderer)});
+  stages.push_back({"landmarks_naked", {}});
   stages.push_back({"segment", segment_figures(reconstruction, session)});
   stages.push_back({"fill", fill_figures(reconstruction)});
   const auto mesh_of = [](const auto& garment) -> const Mesh& { return garment.mesh; };
@@ -224,32 +255,6 @@ std::vector<StageFigures> stage_figures(const Reconstruction& reconstruction, co
                                                  "After correction.", renderer, mesh_of)});
   }
   return stages;
-}
-
-std::vector<Figure> result_figures(const Reconstruction& reconstruction, Renderer& renderer) {
-  std::vector<Figure> figures;
-  const auto dressed = [&](const Mesh& body, const std::map<std::string, TexturedMesh>& garments, double heading,
-                           const std::string& name, const std::string& title) {
-    const Mesh body_mesh = turned(body, heading);
-    std::vector<TexturedMesh> meshes;
-    for (const auto& [slot, garment] : garments) meshes.push_back(turned(garment, heading));
-    std::vector<RenderItem> items(1 + meshes.size());
-    items[0].mesh = &body_mesh;
-    items[0].color = kBodyColor;
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      items[i + 1].textured = &meshes[i];
-      items[i + 1].shading = Shading::textured;
-    }
-    add(figures, name, title, "Front, left, back, right.", four_views(renderer, items, 640));
-    add(figures, name + "_turntable", title + ", turntable", "Twelve views round the vertical axis.",
-        contact_sheet(renderer, items, 12, 6, 380));
-  };
-  dressed(reconstruction.naked.get().body, reconstruction.textured.get().garments, front_heading(reconstruction),
-          "result_mannequin", "Reconstructed clothes on the mannequin");
-  if (reconstruction.corrected)
-    dressed(reconstruction.user->get().body, reconstruction.corrected->get().garments,
-            scan_heading(reconstruction.user->get()), "result_user", "The same clothes resized to the user");
-  return figures;
 }
 
 }  // namespace dressform

@@ -17,7 +17,11 @@ struct StageFigures {
 std::vector<StageFigures> stage_figures(const Reconstruction& reconstruction, const CaptureSession& session,
                                         Renderer& renderer);
 
-// The finished clothes: on the mannequin and on the user, front, left, back, right; and a turntable.
+// Of bodies in all images, RGB.
+inline const Eigen::Vector3f kBodyColor{0.86f, 0.80f, 0.74f};
+
+// The finished clothes: on the mannequin and on the user, front, left, back, right; and a turntable. Titles name the
+// garments that were made.
 std::vector<Figure> result_figures(const Reconstruction& reconstruction, Renderer& renderer);
 
 }  // namespace dressform

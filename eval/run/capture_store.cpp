@@ -10,6 +10,7 @@
 #include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
 #include "scenes/hash.h"
+#include "scenes/mesh_io.h"
 
 namespace dressform {
 namespace {
@@ -17,10 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Meshes and textures that the scene brings along.
+// Meshes and textures that the scene brings along, with the material libraries and images that they name.
 std::vector<fs::path> own_files(const Scene& scene) {
   std::vector<fs::path> files{scene.body.mesh, scene.user.mesh};
-  for (const auto& garment : scene.garments) files.insert(files.end(), {garment.mesh, garment.texture});
+  for (const auto& garment : scene.garments) {
+    files.push_back(garment.texture);
+    if (garment.mesh.empty()) continue;
+    for (const auto& file : mesh_files(garment.mesh)) files.push_back(file);
+  }
   files.erase(std::remove(files.begin(), files.end(), fs::path{}), files.end());
   return files;
 }

@@ -5,12 +5,12 @@
 #include <chrono>
 #include <opencv2/imgcodecs.hpp>
 
-#include "eval/evaluate.h"
 #include "eval/report/report.h"
 #include "eval/run/export.h"
 #include "eval/run/run_folder.h"
 #include "eval/run/stage_folders.h"
 #include "eval/run/truth_hash.h"
+#include "eval/score/evaluate.h"
 #include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
 #include "scenes/hash.h"
@@ -102,22 +102,40 @@ std::vector<std::string> write_scores(const EndToEndRequest& request, const Grou
   return {"scores.json", "scores.csv"};
 }
 
+// problems.json, so that a second run need not bring all results into memory to tell.
+std::vector<StageProblem> known_problems(const Reconstruction& made, const std::string& identity,
+                                         const EndToEndRequest& request, Steps& steps) {
+  const fs::path file = request.output / "problems.json";
+  steps.run("problems", hash_hex(identity + truth_hash(request.session)), [&] {
+    const auto found = with_unfound_garments(stage_problems(made), made, truth_garment_names(request.session));
+    write_file_atomically(file, to_json(found).dump(1) + "\n");
+    return std::vector<std::string>{"problems.json"};
+  });
+  return problems_from_json(json::parse(read_file_bytes(file)));  // intact, or just written
+}
+
+// What was asked, for run.json.
+json facts_of(const EndToEndRequest& request, const SessionSource& source) {
+  json facts = request.facts;
+  facts["provenance"] = provenance(request.threads);
+  facts["scene"] = request.scene;
+  facts["variant"] = request.variant;
+  facts["seed"] = request.options.seed;
+  facts["store"] = fs::absolute(request.store).lexically_normal().string();
+  facts["options"] = to_json(request.options);
+  facts["session"] = {{"path", fs::absolute(request.session).string()},
+                      {"content_hash", source.session.content_hash()},
+                      {"truth_hash", truth_hash(request.session)}};
+  return facts;
+}
+
 }  // namespace
 
 EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProgress& progress) {
   check_options(request.options);
   const SessionSource source = open_session(request.session, request.check_session);
   RunFolder folder(request.output);
-  folder.facts() = request.facts;
-  folder.facts()["provenance"] = provenance(request.threads);
-  folder.facts()["scene"] = request.scene;
-  folder.facts()["variant"] = request.variant;
-  folder.facts()["seed"] = request.options.seed;
-  folder.facts()["store"] = fs::absolute(request.store).lexically_normal().string();
-  folder.facts()["options"] = to_json(request.options);
-  folder.facts()["session"] = {{"path", fs::absolute(request.session).string()},
-                               {"content_hash", source.session.content_hash()},
-                               {"truth_hash", truth_hash(request.session)}};
+  folder.facts() = facts_of(request, source);
   ArtifactStore store(request.store);
   const Reconstruction made = reconstruct(source, request.options, store, progress.stage);
   folder.facts()["stages"] = json::array();
@@ -126,11 +144,13 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
 
   Steps steps(folder, progress);
   const std::string identity = identity_of(made);
+  EndToEndResult result;
+  result.problems = known_problems(made, identity, request, steps);
+  folder.facts()["problems"] = to_json(result.problems);
   steps.run("out", identity, [&] { return with_prefix("out/", export_reconstruction(made, request.output / "out")); });
   steps.run("labels", made.segmentation.content_hash(),
             [&] { return write_labels(made, segment_folder(made), request.output); });
 
-  EndToEndResult result;
   std::optional<GroundTruth> truth;
   const auto known_truth = [&]() -> const GroundTruth& {
     if (!truth) truth = read_ground_truth(request.session);
@@ -146,11 +166,13 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
     scores_hash = folder.product_hash("scores");
   }
   steps.run("report", hash_hex(identity + scores_hash + source.session.content_hash() + code_version("render")), [&] {
-    const ReportInput input{made, source.session.get(), result.scores, result.scores ? &known_truth() : nullptr,
-                            folder.facts()};
+    const ReportInput input{made,           source.session.get(),
+                            result.scores,  result.scores ? &known_truth() : nullptr,
+                            folder.facts(), result.problems};
     return write_report(input, request.output);
   });
   folder.save();
+  if (request.facts.contains("scale")) result.scale = request.facts["scale"].get<double>();
   result.report = request.output / "report.html";
   result.records = made.records;
   return result;

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/scores.h"
+#include "eval/run/stage_problems.h"
+#include "eval/score/scores.h"
 #include "pipeline/reconstruct.h"
 
 namespace dressform {
@@ -29,6 +30,8 @@ struct EndToEndProgress {
 
 struct EndToEndResult {
   std::optional<Scores> scores;  // absent without ground truth
+  std::optional<double> scale;   // of the capture, where it is known
+  std::vector<StageProblem> problems;
   std::filesystem::path report;
   std::vector<StageRecord> records;
 };

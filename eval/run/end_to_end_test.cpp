@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "eval/run/scene_run.h"
+#include "eval/score/metric.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kScale = 0.4;
+constexpr double kScale = 0.25;  // the least at which both garments come out: what is tested here does not depend on it
 const fs::path kLibrary = fs::path(DRESSFORM_SOURCE_DIR) / "scenes/library";
 
 SceneRunRequest request_for(const fs::path& folder, const fs::path& scene_file) {
@@ -85,6 +86,15 @@ TEST_F(EndToEnd, MakesEveryPromisedFile) {
   EXPECT_EQ(report.find("http://"), std::string::npos);
   EXPECT_EQ(report.find("https://"), std::string::npos);
   EXPECT_EQ(fs::is_directory(folder_ / "run/stages/01_calibrate"), true);
+}
+
+TEST_F(EndToEnd, EveryScoreIsOfADeclaredMetric) {
+  ASSERT_GT(result_.scores->rows.size(), 200u);
+  for (const auto& row : result_.scores->rows) {
+    const Metric* metric = find_metric(row.stage, row.metric);
+    ASSERT_NE(metric, nullptr) << row.stage << " " << row.metric;
+    EXPECT_EQ(row.unit, metric->unit) << row.metric;
+  }
 }
 
 TEST_F(EndToEnd, SecondRunDoesNothingAgain) {

@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/run/calibrated_json.h"
+#include "eval/run/garments_json.h"
 #include "scenes/file_bytes.h"
 #include "scenes/mesh_io.h"
 
@@ -64,6 +65,9 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
   jobs.push_back({"calibration.json", [&](const fs::path& file) {
                     write_file_atomically(file, calibrated_json(reconstruction.calibrated.get()));
                   }});
+  jobs.push_back({"garments.json", [&](const fs::path& file) {
+                    write_file_atomically(file, garments_json(reconstruction.opened.get()));
+                  }});
   jobs.push_back({"naked_body.ply", [&](const fs::path& file) { write_ply(file, reconstruction.naked.get().body); }});
   for (const auto& each : reconstruction.textured.get().garments) {
     const auto* slot = &each.first;
@@ -86,6 +90,7 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
   reconstruction.registration.get();
   reconstruction.calibrated.get();
   reconstruction.naked.get();
+  reconstruction.opened.get();
   std::sort(jobs.begin(), jobs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { jobs[i].second(out / jobs[i].first); });
   std::vector<std::string> names;

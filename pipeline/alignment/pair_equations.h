@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <vector>
 
 #include "pipeline/imaging/depth_map.h"
@@ -8,17 +7,6 @@ namespace dressform {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-
-// Tukey's biweight (Beaton and Tukey, 1974): weight and loss of a residual in units of the constant; the loss saturates
-// at 1.
-struct Tukey {
-  double weight, loss;
-  explicit Tukey(double ratio) {
-    const double u = std::max(0.0, 1 - ratio * ratio);
-    weight = u * u;
-    loss = 1 - u * u * u;
-  }
-};
 
 // Normal equations of one directed pair of depth maps, point to plane with projective association (Chen and Medioni,
 // 1991; Blais and Levine, 1995). Twists are (rotation, translation) of the world frame; the same matrix serves both
@@ -33,8 +21,7 @@ struct PairEquations {
 
 // How points of a pair are judged.
 struct CorrespondenceRejector {
-  double distance_m =
-      0.04;  // Tukey's constant for the distance to the plane; associations beyond 1.5 times this are none
+  double distance_m = 0.04;    // Tukey's constant, of the distance to the plane; beyond 1.5 times this there is no pair
   double normal_cosine = 0.8;  // least agreement of the normals
   int stride = 1;              // of the source's samples
 };
@@ -42,6 +29,9 @@ struct CorrespondenceRejector {
 PairEquations pair_equations(const DepthMap& source, const std::vector<int>& samples, const DepthMap& target,
                              const Projector& target_projector, const Isometry3d& world_from_source,
                              const Isometry3d& world_from_target, const CorrespondenceRejector& gate);
+
+// Whether a step is smaller than both, and iteration may end.
+bool negligible(const Vector6d& twist, double rotation_rad, double translation_m);
 
 // exp of a twist (rotation vector, translation) as a rigid motion.
 Isometry3d exponential(const Vector6d& twist);

@@ -1,12 +1,14 @@
-#include "pipeline/body/body_limbs.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/geometry/lattice.h"
 #include "scenes/error.h"
+#include "scenes/serialize.h"
 
 namespace dressform {
 namespace {
@@ -54,7 +56,7 @@ class BodyLimbsAtYaw : public ::testing::TestWithParam<double> {};
 
 TEST_P(BodyLimbsAtYaw, FindsEveryLimbWhateverTheHeading) {
   const double yaw = GetParam();
-  const BodyLimbs limbs = find_limbs(figure(yaw));
+  const Landmarks limbs = find_landmarks(figure(yaw));
   const Vector3d front(std::sin(yaw), 0, std::cos(yaw)), left(std::cos(yaw), 0, -std::sin(yaw));
   EXPECT_GT(limbs.front.dot(front), 0.99);
   EXPECT_GT(limbs.left.dot(left), 0.99);
@@ -72,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Headings, BodyLimbsAtYaw, ::testing::Values(0.0, 0.7, 2
 
 TEST(BodyLimbs, LabelsTheTriangles) {
   const Mesh mesh = figure(0);
-  const BodyLimbs limbs = find_limbs(mesh);
+  const Landmarks limbs = find_landmarks(mesh);
   ASSERT_EQ(limbs.triangle_parts.size(), mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3d& p = mesh.vertices[mesh.triangles[i][0]];
@@ -97,11 +99,43 @@ TEST(BodyLimbs, ABallHasNoLimbs) {
   std::vector<float> field(lattice.count());
   for (std::size_t i = 0; i < field.size(); ++i)
     field[i] = static_cast<float>((lattice.point(i) - Vector3d(0, 0.3, 0)).norm() - 0.3);
-  const BodyLimbs limbs = find_limbs(lattice_surface(lattice, field));
+  const Landmarks limbs = find_landmarks(lattice_surface(lattice, field));
   EXPECT_FALSE(limbs.left_arm || limbs.right_arm || limbs.left_leg || limbs.right_leg);
 }
 
-TEST(BodyLimbs, AnEmptyMeshIsAnError) { EXPECT_THROW(find_limbs(Mesh{}), InputError); }
+TEST(BodyLimbs, AnEmptyMeshIsAnError) {
+  EXPECT_THROW(find_limbs(Mesh{}), InputError);
+  EXPECT_THROW(find_landmarks(Mesh{}), InputError);
+  EXPECT_THROW(require_known({}, "here"), InputError);
+  KnownBody other = known_body(figure(0));
+  other.landmarks.triangle_parts.pop_back();
+  EXPECT_THROW(require_known(other, "here"), InputError);
+}
+
+TEST(BodyLimbs, TransformedLandmarksAreThoseOfTheTransformedMesh) {
+  const Mesh mesh = figure(0.4);
+  Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
+  motion.topLeftCorner<3, 3>() = Eigen::AngleAxisd(1.1, Vector3d::UnitY()).toRotationMatrix();
+  motion.topRightCorner<3, 1>() = Vector3d(0.3, 0.25, -0.2);
+  const Landmarks moved = transformed(find_landmarks(mesh), motion), found = find_landmarks(transformed(mesh, motion));
+  EXPECT_LT((moved.front - found.front).norm(), 1e-6);
+  EXPECT_LT((moved.axis - found.axis).norm(), 1e-6);
+  EXPECT_NEAR(moved.waist_y, found.waist_y, 1e-6);
+  EXPECT_NEAR(moved.neck_y, found.neck_y, 1e-6);
+  EXPECT_LT((moved.left_arm->root - found.left_arm->root).norm(), 1e-6);
+  EXPECT_EQ(moved.triangle_parts, found.triangle_parts);
+}
+
+TEST(BodyLimbs, LandmarksSurviveTheArchive) {
+  const Landmarks found = find_landmarks(figure(0.4));
+  std::string bytes = to_bytes(found);
+  const Landmarks read = from_bytes<Landmarks>(bytes);
+  EXPECT_EQ(to_bytes(read), bytes);
+  EXPECT_EQ(read.triangle_parts, found.triangle_parts);
+  EXPECT_EQ(read.front_from, FrontFrom::feet);
+  bytes.back() = 77;  // the last triangle's part
+  EXPECT_THROW(from_bytes<Landmarks>(bytes), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace dressform

@@ -1,8 +1,9 @@
+#include "pipeline/body/sections.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include "pipeline/body/body_limbs.h"
+#include <opencv2/imgproc.hpp>
 
 namespace dressform {
 namespace {
@@ -118,6 +119,13 @@ bool contains(const SectionLoop& loop, const Vector3d& point) {
       inside = !inside;
   }
   return inside;
+}
+
+double tape_girth(const SectionLoop& loop) {
+  std::vector<cv::Point2f> points, hull;
+  for (const auto& p : loop.points) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.z()));
+  cv::convexHull(points, hull);
+  return cv::arcLength(hull, true);
 }
 
 }  // namespace dressform

@@ -4,18 +4,18 @@
 
 #include "pipeline/calibrate/board_views.h"
 #include "scenes/error.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
-constexpr double same_turn_deg = 15;
+constexpr double same_turn_deg = 15;      // between what two boards say of the turn from camera to camera
+constexpr double least_spread = 0.04;     // deviation of the boards' directions (x/z), to tell mirrored images
+constexpr double least_opposition = 0.8;  // correlation of the directions in the two images, with the sign turned
+constexpr double usual_focal = 0.7;       // of the image's width: 71 degrees wide
+constexpr double shortest_focal = 0.35, longest_focal = 3;  // the same: what no Kinect is beyond
 
 double angle_deg(const Eigen::Matrix3d& rotation) { return Eigen::AngleAxisd(rotation).angle() * 180 / M_PI; }
-
-double middle(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 // The corners as they read when the board is turned in its plane by `quarter` right angles (1 and 3: square boards).
 std::vector<Vector2d> turned(const std::vector<Vector2d>& corners, const BoardGrid& grid, int quarter) {
@@ -93,8 +93,8 @@ void check_not_mirrored(const SensorBoards& boards, const std::vector<Pair>& pai
       sa += a, sb += b, saa += a * a, sab += a * b, sbb += b * b;
     }
     const double vaa = saa / n - sa * sa / n / n, vab = sab / n - sa * sb / n / n, vbb = sbb / n - sb * sb / n / n;
-    const bool wide = vaa > 0.04 * 0.04 && vbb > 0.04 * 0.04;
-    if (pairs.size() >= 3 && wide && vab < -0.8 * std::sqrt(vaa * vbb))
+    const bool wide = vaa > least_spread * least_spread && vbb > least_spread * least_spread;
+    if (pairs.size() >= 3 && wide && vab < -least_opposition * std::sqrt(vaa * vbb))
       throw InputError("boards/" + boards.sensor, std::string("colour and infrared are mirrored against each other ") +
                                                       (axis == 0 ? "(left and right)" : "(top and bottom)") +
                                                       "; expected both as the cameras see the scene, or both mirrored");
@@ -146,7 +146,7 @@ Camera plain_camera(cv::Size size, double focal) {
 
 double focal_by_vanishing_points(const std::vector<const std::vector<Vector2d>*>& views, const BoardGrid& grid,
                                  cv::Size size) {
-  const double usual = 0.7 * size.width;
+  const double usual = usual_focal * size.width;
   if (views.empty()) return usual;
   std::vector<std::vector<cv::Point3f>> objects;
   std::vector<std::vector<cv::Point2f>> images;
@@ -160,7 +160,7 @@ double focal_by_vanishing_points(const std::vector<const std::vector<Vector2d>*>
     }
   }
   const double focal = cv::initCameraMatrix2D(objects, images, size).at<double>(0, 0);
-  return focal > 0.35 * size.width && focal < 3 * size.width ? focal : usual;
+  return focal > shortest_focal * size.width && focal < longest_focal * size.width ? focal : usual;
 }
 
 Camera rough_camera(const SensorBoards& boards, bool color) {
@@ -171,12 +171,12 @@ Camera rough_camera(const SensorBoards& boards, bool color) {
     const auto& corners = color ? view.color : view.ir;
     if (corners.empty()) continue;
     views.push_back(&corners);
-    if (static_cast<int>(view.depth.size()) < 8) continue;
+    if (!enough_depth(view)) continue;
     std::vector<double> depths;
     for (const auto& sample : view.depth) depths.push_back(sample.depth_m);
-    focals.push_back(board_scale(corners, boards.grid) * middle(depths));
+    focals.push_back(board_scale(corners, boards.grid) * median(std::move(depths)));
   }
-  if (!focals.empty()) return plain_camera(size, middle(focals));
+  if (!focals.empty()) return plain_camera(size, median(std::move(focals)));
   return plain_camera(size, focal_by_vanishing_points(views, boards.grid, size));
 }
 

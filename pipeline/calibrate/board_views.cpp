@@ -7,12 +7,15 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
-constexpr int wide_image = 1200;  // from here on an image is searched at half size first
-constexpr int small_image = 800;  // up to here it is enlarged
-constexpr int widest_window = 8;
+constexpr int wide_image = 1200;                        // from here on an image is searched at half size first
+constexpr int small_image = 800;                        // up to here it is enlarged
+constexpr int widest_window = 8, narrowest_window = 2;  // half of the refining window's edge, pixels
+constexpr double window_part = 0.45;  // of the corners' spacing: the window stays within the four squares
 constexpr double darkest = 0.01, brightest = 0.998;  // quantiles that become black and white
 
 // 8-bit grey, contrast stretched between two quantiles; the root evens out the light's fall with distance.
@@ -20,13 +23,8 @@ cv::Mat stretched(const cv::Mat& image) {
   cv::Mat grey = image, values;
   if (image.channels() == 3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   grey.convertTo(values, CV_32F);
-  std::vector<float> sorted(values.begin<float>(), values.end<float>());
-  const auto quantile = [&](double part) {
-    const auto at = sorted.begin() + static_cast<long>(part * (sorted.size() - 1));
-    std::nth_element(sorted.begin(), at, sorted.end());
-    return *at;
-  };
-  const float low = quantile(darkest), high = std::max(quantile(brightest), low + 1);
+  const std::vector<float> levels(values.begin<float>(), values.end<float>());
+  const float low = lower_quantile(levels, darkest), high = std::max(lower_quantile(levels, brightest), low + 1);
   values = cv::min(cv::max((values - low) / (high - low), 0), 1);
   if (image.depth() == CV_16U) cv::sqrt(values, values);
   cv::Mat result;
@@ -61,12 +59,13 @@ void rescale(std::vector<cv::Point2f>& corners, double factor) {
 void refine(const cv::Mat& grey, const BoardGrid& grid, std::vector<cv::Point2f>& corners) {
   const double factor = grey.cols <= small_image ? 2 : 1;
   rescale(corners, factor);
-  const int window = std::clamp(static_cast<int>(0.45 * least_spacing(corners, grid)), 2, widest_window);
+  const int window =
+      std::clamp(static_cast<int>(window_part * least_spacing(corners, grid)), narrowest_window, widest_window);
   const auto before = corners;
   cv::cornerSubPix(resampled(grey, factor), corners, {window, window}, {-1, -1},
                    {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-4});
   for (std::size_t i = 0; i < corners.size(); ++i)
-    if (cv::norm(corners[i] - before[i]) > 0.5 * window) corners[i] = before[i];  // ran off to another corner
+    if (2 * cv::norm(corners[i] - before[i]) > window) corners[i] = before[i];  // ran off to another corner
   rescale(corners, 1 / factor);
 }
 

@@ -29,6 +29,9 @@ struct BoardView {
   std::vector<BoardDepth> depth;
 };
 
+// Whether depth was measured on enough squares to say where the board is.
+inline bool enough_depth(const BoardView& view) { return view.depth.size() >= 8; }
+
 struct SensorBoards {
   std::string sensor;
   BoardGrid grid;

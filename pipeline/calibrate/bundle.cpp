@@ -11,7 +11,8 @@ void fields(V& v, BundleParams& p) {
   fields(v, p.boards);
 }
 
-// All at once: both cameras, the step between them, the depth offset and the boards' poses.
+// All at once: both cameras, the step between them, the depth offset and the boards' poses. Triggs, McLauchlan, Hartley
+// and Fitzgibbon, "Bundle adjustment - a modern synthesis", 1999.
 Calibrated bundle(const CaptureSession& session, const BundleParams& params) {
   return calibrate_from_boards(session, params.boards, by_bundle);
 }

@@ -35,7 +35,7 @@ struct BoardReport {
 struct Calibrated {
   Calibration calibration;
   std::map<std::string, BoardReport> boards;  // sensors calibrated from boards
-  std::map<std::string, std::string> notes;   // by sensor: why its boards were not used
+  std::map<std::string, std::string> notes;   // by sensor: why its boards were not used, what they leave open
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -44,7 +44,16 @@ struct Calibrated {
 };
 
 // Intrinsics, distortion, color_from_ir and depth offset of every sensor of the session, the hand-held one included.
-// Variants that use boards take the session's own calibration for sensors without board shots.
+//
+// In: the session; its boards' shots (raw images of any number of sensors) or its own calibration, whichever the
+// variant uses. Variants that use boards take the session's own calibration for sensors without board shots. Out:
+// cameras in pixels of the raw images (centres at integers), Brown's distortion in OpenCV's order; color_from_ir takes
+// metres of the infrared camera's frame (x right, y down, z forward) to the colour camera's; depth_offset_m is what
+// measured depth is too long. `boards`: residuals of the sensors calibrated here; converged = false where the boards
+// leave a focal length open. Throws InputError, naming file or sensor, where neither boards nor a calibration are there
+// for a sensor, too few boards were found, images are mirrored or do not belong together, or depth does not show the
+// boards. Zhang, "A flexible new technique for camera calibration", PAMI 2000; Brown, "Close-range camera calibration",
+// 1971.
 using Calibrate = Stage<CalibrateTag, Calibrated(const CaptureSession&)>;
 
 }  // namespace dressform

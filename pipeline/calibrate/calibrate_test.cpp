@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "pipeline/calibrate/board_square.h"
 #include "pipeline/calibrate/from_boards.h"
 #include "pipeline/calibrate/projection.h"
 #include "pipeline/imaging/color_mapping.h"
 #include "pipeline/imaging/depth_map.h"
 #include "pipeline/testing/board_images.h"
+#include "scenes/error.h"
 #include "scenes/serialize.h"
 
 namespace dressform {
@@ -67,9 +69,39 @@ void expect_near_truth(const SensorCalibration& found, double loose = 1) {
   EXPECT_NEAR(found.depth_offset_m, truth.depth_offset_m, 0.001 * loose);
 }
 
-TEST(Calibrate, RegisteredVariantsAreTheFiles) {
-  EXPECT_EQ(Calibrate::names(), (std::vector<std::string>{"automatic", "bundle", "depth_plane", "from_session",
-                                                          "sb_distortion", "thesis"}));
+SensorBoards with_square(double times) {
+  SensorBoards boards = found_boards();
+  boards.grid.square_m *= times;
+  return boards;
+}
+
+// Squares that are said to be larger or smaller than they are: depth speaks against it.
+TEST(Calibrate, ASquareOfTheWrongSize) {
+  for (const auto& [times, unit] : {std::pair(10.0, "a decimal place"),
+                                    {100.0, "centimetres"},
+                                    {1 / 0.0254, "inches"},
+                                    {0.5, "two squares"},
+                                    {1.2, ""}}) {
+    try {
+      fit_sensor(with_square(times), {}, by_bundle, nullptr);
+      ADD_FAILURE() << "a square " << times << " times too large was taken";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("session.json: boards.square_m: found squares of")) << times;
+      EXPECT_THAT(error.what(), HasSubstr(unit)) << times;
+    }
+  }
+  EXPECT_NEAR(square_evidence(with_square(10)).depth_ratio * 10, 1, 0.03);
+  EXPECT_NEAR(square_evidence(found_boards()).depth_ratio, 1, 0.03);
+}
+
+TEST(Calibrate, BoardsWithoutDepthSaySo) {
+  SensorBoards boards = found_boards();
+  for (auto& view : boards.views) view.depth.clear();
+  const SensorFit fit = fit_sensor(boards, {}, by_bundle, nullptr);
+  EXPECT_THAT(fit.note,
+              HasSubstr("no depth on the boards in any of 10 shots: the depth offset is not known, 0 is taken"));
+  EXPECT_EQ(fit.report.depth_views, 0);
+  EXPECT_EQ(fit_sensor(found_boards(), {}, by_bundle, nullptr).note, "");
 }
 
 TEST(Calibrate, BundleFindsTheKnownSensor) {

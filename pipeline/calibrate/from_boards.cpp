@@ -6,25 +6,26 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/calibrate/board_square.h"
 #include "scenes/error.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
 constexpr double impossible_depth_m = 0.15;  // of a board's mean depth: such an image shows something else
 constexpr double sure_focal = 0.01;          // relative sigma up to which a focal length counts as found
-
-double middle(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
+constexpr int rejections = 2;                // rounds of leaving out bad views: the second sees what the first hid
+constexpr int views_for_slope = 3;           // with depth, and ...
+constexpr double spread_for_slope_m = 0.01;  // ... deviation of their distances, to tell how depth grows with it
+constexpr double least_step_m = 0.02;        // between the two cameras along x: less has no sign
 
 // Residual above which a view goes. Where all views are equally good, none goes for a trifle.
 double limit_of(std::vector<double> residuals, double reject_mad) {
-  const double median = middle(residuals);
-  for (auto& residual : residuals) residual = std::abs(residual - median);
-  return median + std::max(0.3 * median, reject_mad * 1.4826 * middle(residuals));
+  constexpr double kTrifle = 0.3;  // of the median residual
+  const double typical = median(residuals);
+  for (auto& residual : residuals) residual = std::abs(residual - typical);
+  return typical + std::max(kTrifle * typical, reject_mad * kSigmaPerMedianDeviation * median(std::move(residuals)));
 }
 
 // Clears the corners of one camera in the views that fit badly, the worst first, as long as enough are left.
@@ -108,17 +109,43 @@ void add_depth(const std::vector<ViewResidual>& residuals, BoardReport& report) 
   if (n == 0) return;
   report.depth_rms_mm = 1000 * std::sqrt(sdd / n);
   const double spread = szz - sz * sz / n;
-  if (n >= 3 && spread / n > 0.01 * 0.01) report.depth_slope_mm_per_m = 1000 * (szd - sz * sd / n) / spread;
+  if (n >= views_for_slope && spread / n > spread_for_slope_m * spread_for_slope_m)
+    report.depth_slope_mm_per_m = 1000 * (szd - sz * sd / n) / spread;
 }
 
 std::string note_on_mirroring(const SensorCalibration& found, const SensorCalibration* given) {
   if (!given || !given->color || !found.color) return {};
   const double a = found.color_from_ir.translation().x(), b = given->color_from_ir.translation().x();
-  if (std::abs(a) < 0.02 || std::abs(b) < 0.02 || a * b > 0) return {};
+  if (std::abs(a) < least_step_m || std::abs(b) < least_step_m || a * b > 0) return {};
   return fmt::format(
       "the step from infrared to colour is {:+.1f} mm along x by the boards and {:+.1f} mm in calibration.json: the "
       "images of one of them are mirrored",
       1000 * a, 1000 * b);
+}
+
+// Measured depth is d + s z: a slope s is a scale that squares or sensor have wrong.
+std::string note_on_slope(const BoardReport& report, const BoardGrid& grid) {
+  constexpr double kUnexplained = 10;  // mm/m, a part in a hundred: more than focal lengths found to 1 % leave
+  if (report.depth_views == 0 || std::abs(report.depth_slope_mm_per_m) < kUnexplained) return {};
+  return fmt::format(
+      "measured depth departs from the boards' planes by {:+.1f} mm per metre: the squares are {:.4g} m rather than "
+      "{:g} "
+      "m, or the sensor's own scale is {:+.1f} % off (measure the board; a depth offset does not mend this)",
+      report.depth_slope_mm_per_m, grid.square_m * (1 + 1e-3 * report.depth_slope_mm_per_m), grid.square_m,
+      0.1 * report.depth_slope_mm_per_m);
+}
+
+std::string note_on_missing_depth(const SensorBoards& boards, const SensorCalibration* given) {
+  if (has_depth(boards)) return {};
+  return fmt::format("no depth on the boards in any of {} shots: the depth offset is not known, {}", boards.shots,
+                     given ? "that of calibration.json is kept" : "0 is taken");
+}
+
+std::string joined_notes(std::initializer_list<std::string> notes) {
+  std::string text;
+  for (const auto& note : notes)
+    if (!note.empty()) text += (text.empty() ? "" : "; ") + note;
+  return text;
 }
 
 bool all_finite(const SensorCalibration& sensor) {
@@ -127,6 +154,32 @@ bool all_finite(const SensorCalibration& sensor) {
   };
   return good(sensor.ir) && (!sensor.color || good(*sensor.color)) && sensor.color_from_ir.matrix().allFinite() &&
          std::isfinite(sensor.depth_offset_m);
+}
+
+// Fits, leaves out the views that fit badly, fits again.
+BoardSolution without_bad_views(SensorBoards& boards, const BoardParams& params, const BoardMethod& method) {
+  BoardSolution solution = method(boards, params);
+  for (int round = 0; round < rejections; ++round) {
+    if (!all_finite(solution.sensor)) break;
+    if (reject_bad_views(boards, solution, params) == 0) break;
+    solution = method(boards, params);
+  }
+  if (!all_finite(solution.sensor))
+    throw InputError("boards/" + boards.sensor,
+                     "no finite calibration comes out; expected boards at several distances and tilts");
+  return solution;
+}
+
+// What is left between the final cameras and the boards.
+void measure(const SensorBoards& boards, const SensorCalibration& sensor, BoardReport& report) {
+  report.used_ir = count_of(boards, &BoardView::ir);
+  report.used_color = count_of(boards, &BoardView::color);
+  const BoardSolution measured = with_fixed_cameras(boards, sensor);
+  const auto residuals = view_residuals(boards, measured);
+  check_depth_shows_boards(boards, residuals, sensor.depth_offset_m);
+  report.ir_rms_px = measured.ir_rms_px;
+  report.color_rms_px = measured.color_rms_px;
+  add_depth(residuals, report);
 }
 
 }  // namespace
@@ -138,14 +191,14 @@ const SensorCalibration* given_for(const CaptureSession& session, const std::str
 }
 
 bool has_depth(const SensorBoards& boards) {
-  return std::any_of(boards.views.begin(), boards.views.end(), [](const auto& view) { return view.depth.size() >= 8; });
+  return std::any_of(boards.views.begin(), boards.views.end(), enough_depth);
 }
 
 double depth_offset_m(const SensorBoards& boards, const BoardSolution& solution) {
   std::vector<double> offsets;
   for (const auto& residual : view_residuals(boards, solution))
     if (std::isfinite(residual.depth_m)) offsets.push_back(residual.depth_m);
-  return solution.sensor.depth_offset_m + middle(offsets);
+  return solution.sensor.depth_offset_m + median_or(std::move(offsets), 0.0);
 }
 
 BoardSolution with_fixed_cameras(const SensorBoards& boards, const SensorCalibration& sensor) {
@@ -168,44 +221,29 @@ std::string problem_with(const SensorBoards& boards, const BoardParams& params) 
   if (ir >= params.min_views && (!wants_color || (color >= params.min_views && both >= 1))) return {};
   return fmt::format(
       "found the board of {} x {} inner corners in {} infrared and {} colour images of {} shots, in both of {}; "
-      "expected "
-      "at least {} in each kind and one pair, with the whole board in the image",
+      "expected at least {} in each kind and one pair, with the whole board in the image",
       boards.grid.columns, boards.grid.rows, ir, color, boards.shots, both, params.min_views);
 }
 
 SensorFit fit_sensor(SensorBoards boards, const BoardParams& params, const BoardMethod& method,
                      const SensorCalibration* given) {
+  check_square(boards);
   SensorFit fit;
-  fit.report.shots = boards.shots;
-  fit.report.turned = boards.turned;
-  fit.report.found_ir = count_of(boards, &BoardView::ir);
-  fit.report.found_color = count_of(boards, &BoardView::color);
-  BoardSolution solution = method(boards, params);
-  for (int round = 0; round < 2; ++round) {
-    if (!all_finite(solution.sensor)) break;
-    if (reject_bad_views(boards, solution, params) == 0) break;
-    solution = method(boards, params);
-  }
-  if (!all_finite(solution.sensor))
-    throw InputError("boards/" + boards.sensor,
-                     "no finite calibration comes out; expected boards at several distances "
-                     "and tilts");
+  BoardReport& report = fit.report;
+  report.shots = boards.shots;
+  report.turned = boards.turned;
+  report.found_ir = count_of(boards, &BoardView::ir);
+  report.found_color = count_of(boards, &BoardView::color);
+  const BoardSolution solution = without_bad_views(boards, params, method);
   fit.sensor = solution.sensor;
   if (given) fit.sensor.model = given->model;
   if (given && !has_depth(boards)) fit.sensor.depth_offset_m = given->depth_offset_m;
-  BoardReport& report = fit.report;
-  report.used_ir = count_of(boards, &BoardView::ir);
-  report.used_color = count_of(boards, &BoardView::color);
-  const BoardSolution measured = with_fixed_cameras(boards, fit.sensor);
-  const auto residuals = view_residuals(boards, measured);
-  check_depth_shows_boards(boards, residuals, fit.sensor.depth_offset_m);
-  report.ir_rms_px = measured.ir_rms_px;
-  report.color_rms_px = measured.color_rms_px;
-  add_depth(residuals, report);
+  measure(boards, fit.sensor, report);
   report.ir_focal_sigma = solution.ir_focal_sigma;
   report.color_focal_sigma = solution.color_focal_sigma;
   report.converged = solution.converged && report.ir_focal_sigma < sure_focal && report.color_focal_sigma < sure_focal;
-  fit.note = note_on_mirroring(fit.sensor, given);
+  fit.note = joined_notes(
+      {note_on_mirroring(fit.sensor, given), note_on_missing_depth(boards, given), note_on_slope(report, boards.grid)});
   return fit;
 }
 

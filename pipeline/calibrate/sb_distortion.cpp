@@ -11,7 +11,8 @@ void fields(V& v, SbDistortionParams& p) {
   fields(v, p.boards);
 }
 
-// The thesis's way with distortion (k1, k2, p1, p2, k3), and a depth offset from the boards' planes.
+// The thesis's way with distortion (k1, k2, p1, p2, k3; Brown, "Close-range camera calibration", 1971), and a depth
+// offset from the boards' planes.
 Calibrated sb_distortion(const CaptureSession& session, const SbDistortionParams& params) {
   return calibrate_from_boards(session, params.boards, by_sb_distortion);
 }

@@ -28,7 +28,7 @@ void add_corrected(const std::string& name, const TexturedMesh& before, std::vec
   result.converged[name] = intersecting_pairs == 0;
 }
 
-CorrectedGarments each_vertex_moved(const BodyModel& user, const FittedGarments& fitted,
+CorrectedGarments each_vertex_moved(const KnownBody& user, const FittedGarments& fitted,
                                     const std::function<Vector3d(const Vector3d&)>& target) {
   CorrectedGarments result;
   for (const auto& [name, garment] : fitted.garments) {
@@ -41,8 +41,6 @@ CorrectedGarments each_vertex_moved(const BodyModel& user, const FittedGarments&
   return result;
 }
 
-void require_user(const BodyModel& user, const std::string& variant) {
-  if (user.body.triangles.empty()) throw InputError(variant, "the user's model has no surface; expected a closed body");
-}
+void require_user(const KnownBody& user, const std::string& variant) { require_known(user, variant + ": user's body"); }
 
 }  // namespace dressform

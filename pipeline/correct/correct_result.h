@@ -13,10 +13,10 @@ void add_corrected(const std::string& name, const TexturedMesh& before, std::vec
 
 // Every vertex of every garment goes where `target` says, each for itself; pairs that still intersect the user's body
 // are counted by exact predicates.
-CorrectedGarments each_vertex_moved(const BodyModel& user, const FittedGarments& fitted,
+CorrectedGarments each_vertex_moved(const KnownBody& user, const FittedGarments& fitted,
                                     const std::function<Vector3d(const Vector3d&)>& target);
 
-// Throws InputError naming the variant when the user's body is missing.
-void require_user(const BodyModel& user, const std::string& variant);
+// Throws InputError naming the variant when the user's body or its landmarks are missing.
+void require_user(const KnownBody& user, const std::string& variant);
 
 }  // namespace dressform

@@ -27,7 +27,7 @@ TEST(Intersections, KnownTriangles) {
 }
 
 TEST(Sleeves, EndWhereTheGarmentNoLongerEnclosesTheArm) {
-  const BodyLimbs limbs = find_limbs(make_figure({}));
+  const Landmarks limbs = find_landmarks(make_figure({}));
   ASSERT_TRUE(limbs.left_arm);
   const Mesh upright = make_tube(0.07, 0, 0.30).mesh;  // along +y
   const auto onto = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), limbs.left_arm->direction);
@@ -49,15 +49,22 @@ TEST(Sleeves, EndWhereTheGarmentNoLongerEnclosesTheArm) {
 }
 
 struct Case {
-  BodyModel user;
+  KnownBody user;
   FittedGarments fitted;
+
+  // A top whose sleeves end where its cloth does.
+  void put_on(const TexturedMesh& top) {
+    fitted.garments["top"] = top;
+    fitted.layouts["top"].kind = "shirt";
+    fitted.layouts["top"] = with_sleeve_ends(fitted.layouts["top"], top.mesh, user.landmarks);
+  }
 };
 
 // A tube that dives into the figure's trunk all round, and one whose large triangles cut it between their vertices.
 Case penetrating() {
   Case result;
-  result.user.body = make_figure({});
-  result.fitted.garments["top"] = make_tube(0.147, 1.02, 1.25, 0.008);
+  result.user = known_body(make_figure({}));
+  result.put_on(make_tube(0.147, 1.02, 1.25, 0.008));
   TexturedMesh coarse;
   for (int row = 0; row < 2; ++row)
     for (int i = 0; i < 8; ++i) {
@@ -71,6 +78,7 @@ Case penetrating() {
   coarse.corner_uv.assign(16, {Vector2f(0, 0), Vector2f(0, 1), Vector2f(1, 1)});
   coarse.texture = cv::Mat(2, 2, CV_8UC3, cv::Scalar(1, 2, 3));
   result.fitted.garments["bottom"] = coarse;
+  result.fitted.layouts["bottom"].kind = "skirt";
   return result;
 }
 
@@ -93,7 +101,7 @@ TEST(Correct, SmoothVariantLeavesNothingThatIntersects) {
 TEST(Correct, ClothThatTouchesNothingIsLeftAlone) {
   Case input = penetrating();
   input.fitted.garments.clear();
-  input.fitted.garments["top"] = make_tube(0.17, 1.02, 1.2);
+  input.put_on(make_tube(0.17, 1.02, 1.2));
   for (const auto& name : Correct::names()) {
     const auto result = Correct::at(name).run(input.user, input.fitted, {}, 1);
     EXPECT_EQ(result.garments.at("top").mesh.vertices, input.fitted.garments.at("top").mesh.vertices) << name;
@@ -132,10 +140,10 @@ TexturedMesh sleeve_of(const Limb& arm, double radius_m, const Vector3d& shift) 
 TEST(Correct, SleeveFarOffItsArmComesBackRoundIt) {
   Case input = penetrating();
   input.fitted.garments.clear();
-  const BodyLimbs limbs = find_limbs(input.user.body);
+  const Landmarks& limbs = input.user.landmarks;
   ASSERT_TRUE(limbs.left_arm);
   const TexturedMesh sleeve = sleeve_of(*limbs.left_arm, 0.055, 0.08 * limbs.left_arm->direction + 0.035 * limbs.front);
-  input.fitted.garments["top"] = sleeve;
+  input.put_on(sleeve);
   const auto result = Correct::at("signed_distance_smooth").run(input.user, input.fitted, {}, 1);
   EXPECT_EQ(result.intersecting_pairs.at("top"), 0);
   const auto ends = sleeve_ends(result.garments.at("top").mesh, limbs);
@@ -154,14 +162,14 @@ TEST(Correct, CrumpledClothIsNotDrawnOut) {
   // A sleeve crumpled into its arm: triangles stand across the arm, whichever way they are lifted.
   Case input = penetrating();
   input.fitted.garments.clear();
-  const BodyLimbs limbs = find_limbs(input.user.body);
+  const Landmarks& limbs = input.user.landmarks;
   ASSERT_TRUE(limbs.left_arm);
   TexturedMesh sleeve = sleeve_of(*limbs.left_arm, 0.055, 0.08 * limbs.left_arm->direction);
   for (std::size_t v = 0; v < sleeve.mesh.vertices.size(); ++v) {
     const double i = static_cast<double>(v);
     sleeve.mesh.vertices[v] += 0.020 * Vector3d(std::sin(12.9 * i), 0.3 * std::sin(78.2 * i), std::sin(37.7 * i));
   }
-  input.fitted.garments["top"] = sleeve;
+  input.put_on(sleeve);
   ASSERT_GT(intersecting_pairs(sleeve.mesh, input.user.body).size(), 500u);
   const auto result = Correct::at("signed_distance_smooth").run(input.user, input.fitted, {}, 1);
   EXPECT_EQ(result.intersecting_pairs.at("top"), 0);
@@ -172,9 +180,10 @@ TEST(Correct, UglyInput) {
   Case input = penetrating();
   FittedGarments none;
   none.garments["top"] = {};
+  none.layouts["top"].kind = "shirt";
   for (const auto& name : Correct::names()) {
     EXPECT_TRUE(Correct::at(name).run(input.user, none, {}, 1).garments.at("top").mesh.vertices.empty()) << name;
-    EXPECT_THROW(Correct::at(name).run(BodyModel{}, input.fitted, {}, 1), InputError) << name;
+    EXPECT_THROW(Correct::at(name).run(KnownBody{}, input.fitted, {}, 1), InputError) << name;
   }
 }
 

@@ -14,6 +14,13 @@ constexpr double kLargestLift_m = 0.012;  // of a cut triangle in one round
 // Leaving the way the cloth faces may be so much longer than leaving by the nearest side, and so much more.
 constexpr double kDetour = 4, kDetour_m = 0.02;
 constexpr int kRelaxedRings = 2;
+constexpr double kReached = 0.98;                    // of the gap
+constexpr double kDeep_m = 0.004, kTurnsOver = 0.3;  // inside, and the nearest way out so much against the cloth's side
+constexpr double kContradict = 0.4;                  // length of the mean normal of what cuts a triangle
+constexpr double kEdgeOn = 0.2, kEdgeOnLift_m = 0.002;  // cosine to the triangle's normal, and the step then
+constexpr double kOver = 0.3;                           // of the gap, beyond what cuts
+constexpr double kFade = 0.9;                           // of a push from one ring of neighbours to the next
+constexpr double kShrinkRounds = 20, kLeastGap = 0.1;
 constexpr int kPatience = 15;  // rounds after which the gap shrinks: the room between arm and trunk may be less
 
 std::vector<std::vector<int>> neighbours_of(const Mesh& mesh) {
@@ -59,7 +66,7 @@ class Pusher {
     PushedOut result;
     std::vector<char> stale_triangle(mesh_.triangles.size(), 1);
     for (result.rounds = 0; result.rounds < params_.rounds; ++result.rounds) {
-      gap_m_ = params_.gap_m * std::clamp(1 - (result.rounds - kPatience) / 20.0, 0.1, 1.0);
+      gap_m_ = params_.gap_m * std::clamp(1 - (result.rounds - kPatience) / kShrinkRounds, kLeastGap, 1.0);
       std::vector<Vector3d> push(mesh_.vertices.size(), Vector3d::Zero());
       bool any = find_vertex_pushes(push);
       if (!any) {
@@ -84,11 +91,11 @@ class Pusher {
     const Vector3d& p = mesh_.vertices[v];
     const auto closest = body_.closest(p);
     const double distance = body_.signed_distance(p, closest);
-    if (distance >= 0.98 * gap_m_) return p;
+    if (distance >= kReached * gap_m_) return p;
     Vector3d out = distance < 0 ? Vector3d(closest.point - p) : Vector3d(p - closest.point);
     out = std::abs(distance) > 1e-5 ? Vector3d(out.normalized()) : body_.normal(closest.triangle);
     const Vector3d facing = beside_[closest.triangle] ? Vector3d(-cloth_normal) : cloth_normal;
-    if (distance < -0.004 && out.dot(facing) < -0.3) {
+    if (distance < -kDeep_m && out.dot(facing) < -kTurnsOver) {
       const auto hit = body_.first_hit(p, facing);
       if (hit && hit->distance < kDetour * -distance + kDetour_m && body_.normal(hit->triangle).dot(facing) > 0)
         return hit->point + gap_m_ * body_.normal(hit->triangle);
@@ -125,15 +132,15 @@ class Pusher {
       beside = beside || beside_[other];
     }
     normal = normal.norm() > 0 ? Vector3d(normal.normalized()) : out.normalized();
-    if (out.norm() < 0.4) out = beside ? Vector3d(-normal) : normal;
+    if (out.norm() < kContradict) out = beside ? Vector3d(-normal) : normal;
     out.normalize();
     if (normal.dot(out) < 0) normal = -normal;
-    if (normal.dot(out) < 0.2) return 0.002 * out;
+    if (normal.dot(out) < kEdgeOn) return kEdgeOnLift_m * out;
     double height = 0;
     for (int other : cuts_[i])
       for (int k = 0; k < 3; ++k)
         height = std::max(height, normal.dot(body_.mesh().vertices[body_.mesh().triangles[other][k]] - a));
-    return std::min(kLargestLift_m, (height + 0.3 * gap_m_) / normal.dot(out)) * out;
+    return std::min(kLargestLift_m, (height + kOver * gap_m_) / normal.dot(out)) * out;
   }
 
   bool find_triangle_lifts(std::vector<Vector3d>& push) const {
@@ -181,7 +188,7 @@ class Pusher {
         if (fixed[v] || neighbours_[v].empty()) return;
         Vector3d mean = Vector3d::Zero();
         for (int n : neighbours_[v]) mean += before[n];
-        push[v] = 0.9 * mean / static_cast<double>(neighbours_[v].size());
+        push[v] = kFade * mean / static_cast<double>(neighbours_[v].size());
         if (push[v].squaredNorm() < 1e-12) push[v].setZero();
       });
     }

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/geometry/intersections.h"
 #include "pipeline/geometry/mesh_query.h"
 #include "scenes/mesh.h"

@@ -15,7 +15,7 @@ void fields(V& v, SignedDistanceParams& p) {
   v("gap_m", p.gap_m, 0.0, 0.02, "m", "least distance of a vertex of cloth from the body");
 }
 
-CorrectedGarments signed_distance(const BodyModel& user, const FittedGarments& fitted,
+CorrectedGarments signed_distance(const KnownBody& user, const FittedGarments& fitted,
                                   const SignedDistanceParams& params) {
   require_user(user, "correct.signed_distance");
   const MeshQuery body(user.body);

@@ -37,7 +37,7 @@ struct Faces {
 };
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Faces>, Faces, 3>;
 
-CorrectedGarments thesis_centroid(const BodyModel& user, const FittedGarments& fitted,
+CorrectedGarments thesis_centroid(const KnownBody& user, const FittedGarments& fitted,
                                   const ThesisCentroidParams& params) {
   require_user(user, "correct.thesis_centroid");
   const Faces faces(user.body);

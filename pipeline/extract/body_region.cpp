@@ -8,6 +8,7 @@
 
 #include "pipeline/extract/depth_components.h"
 #include "pipeline/geometry/floor.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -15,7 +16,21 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-constexpr int kLeastPixels = 12;  // smaller pieces are specks
+constexpr int kLeastPixels = 12;                    // smaller pieces are specks
+constexpr std::size_t kLeastOfBody = 100;           // pixels of what may be the body's main piece
+constexpr double kShortest = 0.25, kTallest = 1.3;  // of the stature: a piece of it, and it on a stand with arms up
+constexpr double kWidest_m = 1.6;                   // arms stretched out to the sides
+constexpr double kOffCenter_m = 0.6;  // sigma of the body's place off the optical axis, without a rig prior
+constexpr double kStray = 0.02;       // part of a piece's points at either end that say nothing of its size
+constexpr double kFlatPart = 0.7;     // of a piece's points on one plane, for it to be flat
+constexpr double kFlatBand_m = 0.02, kWallBand_m = 0.03, kOnWallBand_m = 0.04;  // to either side of the plane
+constexpr double kFlatLikeness = 0.05;      // of a flat piece: a door may be as tall as a body
+constexpr double kUnindexed = 0.1;          // likeness of a piece that the body index leaves out
+constexpr double kIndexed = 0.3;            // part of a piece from which on the body index means it
+constexpr std::size_t kLeastOfWall = 1500;  // pixels
+constexpr double kInside = 0.85;            // of a piece's points in the body's cylinder, for it to belong to the body
+constexpr double kAbove_m = 0.15;           // hair and a raised hand above the stature
+constexpr double kReach = 1.3;              // of the cylinder's radius, for single pixels of pieces taken
 
 struct Piece {
   std::vector<Vector3d> points;
@@ -26,12 +41,6 @@ struct Piece {
 };
 
 Vector3d to_vector(const cv::Vec3f& p) { return {p[0], p[1], p[2]}; }
-
-double quantile(std::vector<double> values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 // Upright frame: rows are two horizontal directions and up.
 Eigen::Matrix3d upright(const Vector3d& up) {
@@ -54,10 +63,13 @@ void measure(Piece& piece, const BodyExpectation& expected) {
     depth.push_back(local.y());
     height.push_back(height_of(p, expected));
   }
-  piece.center = frame.transpose() * Vector3d(quantile(side, 0.5), quantile(depth, 0.5), 0);
-  piece.low_m = quantile(height, 0.02);
-  piece.high_m = quantile(height, 0.98);
-  piece.width_m = std::max(quantile(side, 0.98) - quantile(side, 0.02), quantile(depth, 0.98) - quantile(depth, 0.02));
+  const auto width = [](const std::vector<double>& c) {
+    return lower_quantile(c, 1 - kStray) - lower_quantile(c, kStray);
+  };
+  piece.center = frame.transpose() * Vector3d(lower_quantile(side, 0.5), lower_quantile(depth, 0.5), 0);
+  piece.low_m = lower_quantile(height, kStray);
+  piece.high_m = lower_quantile(height, 1 - kStray);
+  piece.width_m = std::max(width(side), width(depth));
 }
 
 std::vector<Piece> pieces_of(const DepthComponents& components, const cv::Mat& points_m, const cv::Mat& body_index,
@@ -86,30 +98,32 @@ bool is_flat(const Piece& piece, double tolerance_m) {
   const Vector4d plane = fit_plane(piece.points);
   int flat = 0;
   for (const Vector3d& p : piece.points) flat += std::abs(plane.head<3>().dot(p) + plane[3]) < tolerance_m;
-  return flat > 0.7 * static_cast<double>(piece.points.size());
+  return flat > kFlatPart * static_cast<double>(piece.points.size());
 }
 
 // How much a piece looks like the standing body; 0 = not at all.
 double likeness(const Piece& piece, const BodyExpectation& expected, bool any_indexed) {
-  if (piece.points.size() < 100) return 0;
+  if (piece.points.size() < kLeastOfBody) return 0;
   const double extent = piece.high_m - piece.low_m;
-  if (extent < 0.25 * expected.stature_m || extent > 1.3 * expected.stature_m || piece.width_m > 1.6) return 0;
+  if (extent < kShortest * expected.stature_m || extent > kTallest * expected.stature_m || piece.width_m > kWidest_m)
+    return 0;
   double score = extent / expected.stature_m * std::sqrt(static_cast<double>(piece.points.size()));
   if (expected.place) {
     const double off = horizontal(piece.center - *expected.place, expected.up).norm() / expected.place_sigma_m;
     score *= std::exp(-0.5 * off * off);
   }
   // Without a prior: the rig looks at the mannequin.
-  if (!expected.place) score *= std::exp(-0.5 * std::pow(piece.center.x() / 0.6, 2));
-  if (is_flat(piece, 0.02)) score *= 0.05;
-  if (any_indexed) score *= 0.1 + piece.indexed;
+  if (!expected.place) score *= std::exp(-0.5 * std::pow(piece.center.x() / kOffCenter_m, 2));
+  if (is_flat(piece, kFlatBand_m)) score *= kFlatLikeness;
+  if (any_indexed) score *= kUnindexed + piece.indexed;
   return score;
 }
 
 double part_inside(const Piece& piece, const Vector3d& axis, const BodyExpectation& expected, double radius_m) {
   int inside = 0;
   for (const Vector3d& p : piece.points)
-    inside += horizontal(p - axis, expected.up).norm() < radius_m && height_of(p, expected) < expected.stature_m + 0.15;
+    inside +=
+        horizontal(p - axis, expected.up).norm() < radius_m && height_of(p, expected) < expected.stature_m + kAbove_m;
   return inside / static_cast<double>(piece.points.size());
 }
 
@@ -117,8 +131,8 @@ double part_inside(const Piece& piece, const Vector3d& axis, const BodyExpectati
 std::vector<Vector4d> flat_surroundings(const std::vector<Piece>& pieces, const std::vector<bool>& taken) {
   std::vector<Vector4d> planes;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (taken[k] || pieces[k].points.size() < 1500) continue;
-    if (is_flat(pieces[k], 0.03)) planes.push_back(fit_plane(pieces[k].points));
+    if (taken[k] || pieces[k].points.size() < kLeastOfWall) continue;
+    if (is_flat(pieces[k], kWallBand_m)) planes.push_back(fit_plane(pieces[k].points));
   }
   return planes;
 }
@@ -126,8 +140,8 @@ std::vector<Vector4d> flat_surroundings(const std::vector<Piece>& pieces, const 
 bool lies_on(const Piece& piece, const std::vector<Vector4d>& planes) {
   for (const Vector4d& plane : planes) {
     int on = 0;
-    for (const Vector3d& p : piece.points) on += std::abs(plane.head<3>().dot(p) + plane[3]) < 0.04;
-    if (on > 0.7 * static_cast<double>(piece.points.size())) return true;
+    for (const Vector3d& p : piece.points) on += std::abs(plane.head<3>().dot(p) + plane[3]) < kOnWallBand_m;
+    if (on > kFlatPart * static_cast<double>(piece.points.size())) return true;
   }
   return false;
 }
@@ -138,7 +152,7 @@ std::vector<bool> choose(const std::vector<Piece>& pieces, int main, const BodyE
   std::vector<bool> taken(pieces.size(), false);
   const Vector3d axis = pieces[main].center;
   for (std::size_t k = 0; k < pieces.size(); ++k)
-    if (!pieces[k].points.empty()) taken[k] = part_inside(pieces[k], axis, expected, params.radius_m) > 0.85;
+    if (!pieces[k].points.empty()) taken[k] = part_inside(pieces[k], axis, expected, params.radius_m) > kInside;
   taken[main] = true;
   const auto planes = flat_surroundings(pieces, taken);
   for (std::size_t k = 0; k < pieces.size(); ++k)
@@ -166,7 +180,8 @@ BodyRegion find_body(const cv::Mat& depth_mm, const cv::Mat& points_m, const cv:
   const cv::Mat allowed = above_floor(points_m, expected, params.floor_margin_m);
   const auto components = depth_components(depth_mm, allowed, params.jump_mm);
   const auto pieces = pieces_of(components, points_m, body_index, expected);
-  const bool any_indexed = std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.indexed > 0.3; });
+  const bool any_indexed =
+      std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.indexed > kIndexed; });
   int main = -1;
   double best = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -184,7 +199,7 @@ BodyRegion find_body(const cv::Mat& depth_mm, const cv::Mat& points_m, const cv:
       const int label = components.labels.at<int>(y, x);
       if (label < 0 || !taken[label]) continue;
       const Vector3d p = to_vector(points_m.at<cv::Vec3f>(y, x));
-      if (horizontal(p - axis, expected.up).norm() > 1.3 * params.radius_m) continue;
+      if (horizontal(p - axis, expected.up).norm() > kReach * params.radius_m) continue;
       result.mask.at<uchar>(y, x) = 255;
     }
   }

@@ -1,6 +1,5 @@
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "pipeline/extract/body_region.h"
 #include "pipeline/extract/color_outline.h"
 #include "pipeline/extract/extract.h"
+#include "pipeline/geometry/axes_crossing.h"
 #include "pipeline/geometry/floor.h"
 #include "pipeline/imaging/color_mapping.h"
 #include "scenes/random.h"
@@ -35,29 +35,26 @@ void fields(V& v, ClusterParams& p) {
   v("smoothness", p.smoothness, 0, 50, "nats", "price of an outline through even colour");
 }
 
-// The point nearest to the optical axes of all sensors of the prior, world frame; absent for fewer than two axes.
+// Where the rig was meant to look, world frame.
 std::optional<Vector3d> crossing_of_axes(const RigPrior& prior, const std::vector<std::string>& sensors) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  Vector3d right = Vector3d::Zero();
-  for (const std::string& sensor : sensors) {
-    const auto pose = prior.world_from_sensor.find(sensor);
-    if (pose == prior.world_from_sensor.end()) continue;
-    const Vector3d axis = pose->second.linear().col(2);
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-    sum += across;
-    right += across * pose->second.translation();
-  }
-  if (std::abs(sum.determinant()) < 1e-2) return {};
-  return sum.ldlt().solve(right);
+  std::vector<Isometry3d> poses;
+  for (const std::string& sensor : sensors)
+    if (const auto pose = prior.world_from_sensor.find(sensor); pose != prior.world_from_sensor.end())
+      poses.push_back(pose->second);
+  return axes_crossing(poses);
 }
 
-double stature_of(const Mesh& body) {
+constexpr double kUsualStature_m = 1.8;  // where the naked model is empty
+constexpr double kUnknownBands = 4;      // bands from the body within which a place without depth may still be the body
+
+// Height of the body; where the scan saw no floor, of as much of it as was scanned.
+double stature_of(const BodyModel& naked) {
   double low = 1e9, high = -1e9;
-  for (const Vector3d& v : body.vertices) {
+  for (const Vector3d& v : naked.body.vertices) {
     low = std::min(low, v.y());
     high = std::max(high, v.y());
   }
-  return high > low ? high - std::min(low, 0.0) : 1.8;
+  return high <= low ? kUsualStature_m : naked.floor_seen ? high - std::min(low, 0.0) : high - low;
 }
 
 ViewMasks no_masks(const SensorCalibration& sensor) {
@@ -93,7 +90,7 @@ std::vector<Task> tasks_of(const CaptureSession& session, const Calibration& cal
     task.calibration = &found->second;
     if (const auto shot = session.naked.find(sensor); shot != session.naked.end()) task.naked = &shot->second;
     if (const auto shot = session.dressed.find(sensor); shot != session.dressed.end()) task.dressed = &shot->second;
-    task.expected.stature_m = stature_of(naked.body);
+    task.expected.stature_m = stature_of(naked);
     if (session.prior && session.prior->world_from_sensor.count(sensor)) {
       const Isometry3d sensor_from_world = session.prior->world_from_sensor.at(sensor).inverse();
       task.expected.up = sensor_from_world.linear().col(1);
@@ -124,7 +121,7 @@ BodyRegion region_of(const Shot& shot, const cv::Mat& depth_mm, Task& task, cons
 }
 
 void run(Task& task, const ClusterParams& params, Seed seed) {
-  const OutlineParams outline{params.band_px, 4 * params.band_px, params.smoothness};
+  const OutlineParams outline{params.band_px, kUnknownBands * params.band_px, params.smoothness};
   const bool has_color = task.calibration->color.has_value();
   if (task.naked) {
     const cv::Mat depth = corrected_depth_mm(task.naked->depth_mm, *task.calibration);
@@ -147,7 +144,9 @@ void run(Task& task, const ClusterParams& params, Seed seed) {
   }
 }
 
-// The mannequin as the connected pieces of depth that stand where the rig looks, its outline redrawn in colour.
+// The mannequin as the connected pieces of depth that stand where the rig looks, its outline redrawn in colour by a
+// minimum cut (Boykov and Jolly, ICCV 2001; local colour models in the manner of Rother et al., "GrabCut", SIGGRAPH
+// 2004).
 ExtractedViews cluster(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                        const ClusterParams& params, Seed seed) {
   auto tasks = tasks_of(session, calibration, naked);

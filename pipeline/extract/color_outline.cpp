@@ -8,14 +8,19 @@
 #include "pipeline/imaging/color_histogram.h"
 #include "pipeline/imaging/color_mapping.h"
 #include "pipeline/imaging/graph_cut.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
-constexpr int kBlocks = 12;           // colour models along the body's height
-constexpr double kLeastPiece = 0.01;  // of the mask's area
-constexpr float kMostNats = 4;        // of one cue
-constexpr float kColorNats = 2;       // of the colour models, which confuse skin and a wall alike
+constexpr int kBlocks = 12;                           // colour models along the body's height
+constexpr double kLeastPiece = 0.01;                  // of the mask's area
+constexpr float kMostNats = 4;                        // of one cue
+constexpr float kColorNats = 2;                       // of the colour models, which confuse skin and a wall alike
+constexpr float kBandNats = 3;                        // of a pixel a band's width off the depth's outline
+constexpr double kLeastNoise = 1.5, kUsualNoise = 2;  // levels by which an unchanged pixel differs
+constexpr float kChanged = 4;                         // times that noise: neither for nor against
+constexpr double kEdgeFloor = 0.05;                   // of the smoothness that is paid even across a strong edge
 
 cv::Mat ellipse(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
@@ -69,9 +74,7 @@ double median_of(const cv::Mat& values, const cv::Mat& mask, double otherwise) {
   for (int y = 0; y < values.rows; ++y)
     for (int x = 0; x < values.cols; ++x)
       if (mask.at<uchar>(y, x)) kept.push_back(values.at<uchar>(y, x));
-  if (kept.empty()) return otherwise;
-  std::nth_element(kept.begin(), kept.begin() + kept.size() / 2, kept.end());
-  return kept[kept.size() / 2];
+  return kept.empty() ? otherwise : median(std::move(kept));
 }
 
 // Nats in favour of the surroundings where the image equals the one without clothes.
@@ -82,11 +85,11 @@ void add_unchanged(const cv::Mat& bgr, const Background& background, const cv::M
   cv::Mat near_body;
   cv::dilate(background.body, near_body, ellipse(margin_px));
   cv::Mat visible = around & (near_body == 0);
-  const double noise = std::max(1.5, median_of(change, visible, 2));
+  const double noise = std::max(kLeastNoise, median_of(change, visible, kUsualNoise));
   for (int y = 0; y < cost.rows; ++y) {
     for (int x = 0; x < cost.cols; ++x) {
       if (near_body.at<uchar>(y, x)) continue;
-      const float nats = kMostNats * (1 - change.at<uchar>(y, x) / static_cast<float>(4 * noise));
+      const float nats = kMostNats * (1 - change.at<uchar>(y, x) / static_cast<float>(kChanged * noise));
       cost.at<float>(y, x) += std::clamp(nats, -kMostNats, kMostNats);
     }
   }
@@ -101,7 +104,8 @@ cv::Mat color_cost(const cv::Mat& lab, const LocalModels& models, const cv::Mat&
       const auto& color = lab.at<cv::Vec3b>(y, x);
       const float nats = models.around[block].log_density(color) - models.body[block].log_density(color);
       const float away = distance_px.at<float>(y, x) / static_cast<float>(band_px);
-      cost.at<float>(y, x) = std::clamp(nats, -kColorNats, kColorNats) + std::clamp(3 * away, -kMostNats, kMostNats);
+      cost.at<float>(y, x) =
+          std::clamp(nats, -kColorNats, kColorNats) + std::clamp(kBandNats * away, -kMostNats, kMostNats);
     }
   }
   return cost;
@@ -152,7 +156,7 @@ cv::Mat color_outline(const cv::Mat& bgr, const cv::Mat& depth_mm, const cv::Mat
   const cv::Mat lab = smoothed_lab(bgr(box));
   cv::Mat cost = color_cost(lab, learn(lab, sure_body, around), distance_px, band);
   if (background) add_unchanged(bgr(box), {background->bgr(box), background->body(box)}, around, band, cost);
-  cv::Mat cut = binary_cut(lab, cost, active, body, {params.smoothness, 0.05});
+  cv::Mat cut = binary_cut(lab, cost, active, body, {params.smoothness, kEdgeFloor});
   cv::morphologyEx(cut, cut, cv::MORPH_OPEN, ellipse(1));
   // Bites into the outline that depth does not show: a print of the wall's colour.
   cv::Mat closed;

@@ -35,6 +35,15 @@ struct ExtractTag {
   static constexpr const char* name = "extract";
   static constexpr const char* default_variant = "cluster";
 };
+
+// The mannequin cut out of the room, in every view, naked and dressed.
+//
+// In: raw shots of the rig, the cameras, and the naked model, of which only its height is used: no pose is known yet. A
+// rig prior and the sensors' own body index help where they are there.
+// Out: masks on the depth grid and at colour size, and the floor in each IR camera's frame. A view without a shot, or
+// in which nothing looks like a standing body, has empty masks and found = false; a view without colour no colour
+// masks. Throws InputError for a sensor of the session without a calibration. Fischler and Bolles, CACM 1981 (floor);
+// Boykov and Jolly, "Interactive graph cuts", ICCV 2001 (outline in colour).
 using Extract = Stage<ExtractTag, ExtractedViews(const CaptureSession&, const Calibration&, const BodyModel& naked)>;
 
 }  // namespace dressform

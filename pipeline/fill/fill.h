@@ -2,6 +2,7 @@
 #include <map>
 #include <string>
 
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/run/stage.h"
 #include "pipeline/segment/segment.h"
 
@@ -32,7 +33,12 @@ struct FillTag {
   static constexpr const char* name = "fill";
   static constexpr const char* default_variant = "reproject";
 };
-using Fill = Stage<FillTag, FilledViews(const CaptureSession&, const Calibration&, const BodyModel& naked,
+// The garments' colour and depth in every view, with what an arm hides of them filled in. In: the dressed shots, the
+// naked body and its landmarks (m, model frame), poses, labels. Out: per garment and sensor, at the sizes of colour and
+// IR images; empty masks for views that are not registered. Throws InputError for a body without triangles. The
+// thesis's (section 3.3) is thesis_random31, in the manner of texture synthesis by patches (Efros and Leung, ICCV
+// 1999).
+using Fill = Stage<FillTag, FilledViews(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                         const Registration&, const Segmentation&)>;
 
 }  // namespace dressform

@@ -28,12 +28,13 @@ const AnalyticScene& scene() {
 Segmentation true_segmentation() {
   Segmentation truth;
   truth.labels = scene().labels;
-  truth.kinds = {{"top", "shirt"}, {"bottom", "trousers"}};
+  truth.garments["top"].kind = "shirt";
+  truth.garments["bottom"].kind = "trousers";
   return truth;
 }
 
 FilledViews run(const std::string& variant, const Segmentation& segmentation) {
-  return Fill::at(variant).run(scene().session, scene().calibration, scene().naked, scene().registration, segmentation,
+  return Fill::at(variant).run(scene().session, scene().calibration, scene().body, scene().registration, segmentation,
                                {}, 1);
 }
 
@@ -114,7 +115,7 @@ TEST(Fill, SeenPixelsKeepTheirColoursAndLabels) {
 
 TEST(Fill, MissingViewAndAbsentGarment) {
   Segmentation segmentation = true_segmentation();
-  segmentation.kinds.erase("bottom");
+  segmentation.garments.erase("bottom");
   segmentation.labels.erase("k3");
   segmentation.labels["k4"].setTo(0);
   for (const auto& variant : Fill::names()) {

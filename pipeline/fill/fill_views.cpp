@@ -5,16 +5,16 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
 
 namespace dressform {
 namespace {
 
-PartedBody parted(const Mesh& body) {
-  const BodyLimbs limbs = find_limbs(body);
+PartedBody parted(const KnownBody& naked) {
+  const Mesh& body = naked.body;
   Mesh trunk{body.vertices, {}}, arms{body.vertices, {}};
   for (std::size_t k = 0; k < body.triangles.size(); ++k) {
-    (is_arm(limbs.triangle_parts[k]) ? arms : trunk).triangles.push_back(body.triangles[k]);
+    (is_arm(naked.landmarks.triangle_parts[k]) ? arms : trunk).triangles.push_back(body.triangles[k]);
   }
   return {MeshQuery(trunk), MeshQuery(arms)};
 }
@@ -40,8 +40,8 @@ GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentV
 
 std::vector<Label> worn(const Segmentation& segmentation) {
   std::vector<Label> labels;
-  if (segmentation.kinds.count("top")) labels.push_back(Label::top);
-  if (segmentation.kinds.count("bottom")) labels.push_back(Label::bottom);
+  if (segmentation.garments.count("top")) labels.push_back(Label::top);
+  if (segmentation.garments.count("bottom")) labels.push_back(Label::bottom);
   return labels;
 }
 
@@ -56,12 +56,13 @@ bool usable(const CaptureSession& session, const Registration& registration, con
 
 }  // namespace
 
-FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                        const Registration& registration, const Segmentation& segmentation,
                        const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color) {
+  require_known(naked, "fill");
   const auto labels = worn(segmentation);
   const std::size_t sensors = session.sensors.size();
-  const PartedBody body = parted(naked.body);
+  const PartedBody body = parted(naked);
   std::vector<std::vector<GarmentView>> views(labels.size(), std::vector<GarmentView>(sensors));
   tbb::parallel_for(std::size_t{0}, sensors, [&](std::size_t k) {
     const std::string& sensor = session.sensors[k];

@@ -23,7 +23,7 @@ using ColorFill = std::function<cv::Mat(const std::vector<GarmentView>& views, s
 
 // What all variants share: certain depth, holes and their depth, masks; `color` then paints each view. Views without
 // registration or without the garment have empty masks.
-FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                        const Registration& registration, const Segmentation& segmentation,
                        const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color);
 

@@ -100,7 +100,7 @@ cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, const Re
   return color;
 }
 
-FilledViews reproject(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+FilledViews reproject(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                       const Registration& registration, const Segmentation& segmentation,
                       const ReprojectParams& params) {
   return fill_views(session, calibration, naked, registration, segmentation, params.depth, params.holes,

@@ -72,7 +72,7 @@ cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, int bloc
   return color;
 }
 
-FilledViews thesis_random31(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+FilledViews thesis_random31(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                             const Registration& registration, const Segmentation& segmentation,
                             const ThesisRandomParams& params, Seed seed) {
   return fill_views(

@@ -12,6 +12,9 @@
 namespace dressform {
 namespace {
 
+constexpr double kMutual = 0.5, kMutual_m = 0.008;  // that the way back may miss by: part of the way, and on top of it
+constexpr int kArmRings = 15;                       // of neighbours over which shoulders turn into trunk
+
 struct SurfacePoint {
   Vector3d point, normal;
   BodyPart part;
@@ -22,7 +25,7 @@ std::vector<SurfacePoint> spread_points(const StandingBody& body, double spacing
   const auto normals = vertex_normals(body.mesh);
   std::vector<BodyPart> parts(body.mesh.vertices.size(), BodyPart::torso);
   for (std::size_t t = 0; t < body.mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) parts[body.mesh.triangles[t][k]] = body.limbs.triangle_parts[t];
+    for (int k = 0; k < 3; ++k) parts[body.mesh.triangles[t][k]] = body.landmarks.triangle_parts[t];
   std::map<std::tuple<long, long, long>, std::size_t> cells;
   for (std::size_t v = 0; v < body.mesh.vertices.size(); ++v) {
     const Vector3d cell = (body.mesh.vertices[v] / spacing_m).array().floor();
@@ -65,7 +68,7 @@ std::vector<ControlPair> snapped_pairs(const StandingBody& naked, const std::vec
     const auto here = warped.closest(at);
     if (warped.normal(here.triangle).dot(user_surface.normal(there.triangle)) < least_cosine) return;
     const auto back = warped.closest(there.point);
-    if ((back.point - at).norm() > 0.5 * there.distance + 0.008) return;
+    if ((back.point - at).norm() > kMutual * there.distance + kMutual_m) return;
     found[i] = {points[i].point, there.point, points[i].part};
     good[i] = 1;
   });
@@ -107,8 +110,8 @@ Mesh warped_body(const StandingBody& naked, const BodyWarp& warp) {
   std::vector<double> weights(naked.mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < naked.mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
-      if (is_arm(naked.limbs.triangle_parts[t])) weights[naked.mesh.triangles[t][k]] = 1;
-  weights = diffused_weights(naked.mesh, std::move(weights), 15);
+      if (is_arm(naked.landmarks.triangle_parts[t])) weights[naked.mesh.triangles[t][k]] = 1;
+  weights = diffused_weights(naked.mesh, std::move(weights), kArmRings);
   const auto all = warp.all(naked.mesh.vertices), core = warp.core(naked.mesh.vertices);
   std::vector<Vector3d> vertices(all.size());
   for (std::size_t v = 0; v < all.size(); ++v) vertices[v] = weights[v] * all[v] + (1 - weights[v]) * core[v];

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "pipeline/body/standing_body.h"
 #include "pipeline/fit/control_pairs.h"
 #include "pipeline/fit/rbf_field.h"
-#include "pipeline/fit/standing_body.h"
 
 namespace dressform {
 

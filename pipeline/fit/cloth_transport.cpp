@@ -12,6 +12,12 @@ namespace {
 
 constexpr double kStandsOff = 0.7;  // of an offset's length that is distance from the body; the rest is slant
 constexpr int kRoomSteps = 8;
+constexpr int kArmRings = 20;                              // of neighbours over which sleeve turns into trunk
+constexpr double kRoomFactor = 0.75;                       // of the offset, a step
+constexpr double kSnap_m = 0.04, kSnapCosine = 0.5;        // of a moved point of the body to the user's surface
+constexpr double kRounding_m = 0.002, kTrusted_m = 0.008;  // offsets so short have no direction; so much more, one
+constexpr double kOwn = 0.15, kStay = 0.2, kFromNeighbours = 0.8;  // of a vertex's change in one round of diffusion
+constexpr double kPastSleeve_m = 0.04;  // of the arm still counts as clothed: a bin of the sleeve's end
 
 // The body that the garment lies on: without the arms beyond the sleeves, so that a hem beside a hand belongs to the
 // hips.
@@ -20,14 +26,14 @@ struct ClothedBody {
   std::vector<char> arm;  // per triangle
 };
 
-ClothedBody clothed_body(const Mesh& garment, const StandingBody& naked) {
-  const auto bare = exposed_arm_triangles(naked.mesh, naked.limbs, garment, 0.04);
+ClothedBody clothed_body(const GarmentLayout& layout, const StandingBody& naked) {
+  const auto bare = exposed_arm_triangles({naked.mesh, naked.landmarks}, layout, kPastSleeve_m);
   ClothedBody result;
   result.mesh.vertices = naked.mesh.vertices;
   for (std::size_t i = 0; i < bare.size(); ++i) {
     if (bare[i]) continue;
     result.mesh.triangles.push_back(naked.mesh.triangles[i]);
-    result.arm.push_back(is_arm(naked.limbs.triangle_parts[i]));
+    result.arm.push_back(is_arm(naked.landmarks.triangle_parts[i]));
   }
   return result;
 }
@@ -51,7 +57,7 @@ Anchors find_anchors(const Mesh& garment, const ClothedBody& clothed) {
     anchors.normal[v] = surface.normal(closest.triangle);
     anchors.arm[v] = clothed.arm[closest.triangle];
   });
-  anchors.arm = diffused_weights(garment, std::move(anchors.arm), 20);
+  anchors.arm = diffused_weights(garment, std::move(anchors.arm), kArmRings);
   return anchors;
 }
 
@@ -76,7 +82,7 @@ std::vector<Vector3d> blended(const BodyWarp& warp, const std::vector<Vector3d>&
 double room_for(double offset, const Vector3d& base, const Vector3d& out, const MeshQuery& user_surface) {
   for (int step = 0; step < kRoomSteps; ++step) {
     if (user_surface.closest(base + offset * out).distance >= kStandsOff * offset) break;
-    offset *= 0.75;
+    offset *= kRoomFactor;
   }
   return offset;
 }
@@ -85,15 +91,15 @@ double room_for(double offset, const Vector3d& base, const Vector3d& out, const 
 Vector3d with_offset(const Anchors& anchors, std::size_t v, const Vector3d& cloth, const Vector3d& body,
                      const MeshQuery& user_surface) {
   Vector3d base = body, normal = anchors.normal[v];
-  const auto snapped = user_surface.closest(body, 0.04);
-  if (snapped.triangle >= 0 && user_surface.normal(snapped.triangle).dot(normal) > 0.5) {
+  const auto snapped = user_surface.closest(body, kSnap_m);
+  if (snapped.triangle >= 0 && user_surface.normal(snapped.triangle).dot(normal) > kSnapCosine) {
     base = snapped.point;
     normal = user_surface.normal(snapped.triangle);
   }
   const double distance = anchors.distance[v];
   Vector3d out = distance < 0 ? Vector3d(body - cloth) : Vector3d(cloth - body);
   // Close to the body the offset's direction is mostly rounding: the normal takes over.
-  const double trust = std::clamp((std::abs(distance) - 0.002) / 0.008, 0.0, 1.0);
+  const double trust = std::clamp((std::abs(distance) - kRounding_m) / kTrusted_m, 0.0, 1.0);
   out = out.norm() > 1e-9 ? Vector3d(trust * out.normalized() + (1 - trust) * normal) : normal;
   out.normalize();
   return base + (distance > 0 ? room_for(distance, base, out, user_surface) : distance) * out;
@@ -113,18 +119,18 @@ void diffuse(const Mesh& garment, const std::vector<double>& confidence, int rou
         }
     for (std::size_t v = 0; v < change.size(); ++v) {
       if (counts[v] == 0) continue;
-      const double own = 0.15 * confidence[v];
-      change[v] = own * wanted[v] + (1 - own) * (0.2 * change[v] + 0.8 * sums[v] / counts[v]);
+      const double own = kOwn * confidence[v];
+      change[v] = own * wanted[v] + (1 - own) * (kStay * change[v] + kFromNeighbours * sums[v] / counts[v]);
     }
   }
 }
 
 }  // namespace
 
-Transported transported(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp,
-                        const MeshQuery& user_surface, const ClothTransportParams& params) {
+Transported transported(const Mesh& garment, const GarmentLayout& layout, const StandingBody& naked,
+                        const BodyWarp& warp, const MeshQuery& user_surface, const ClothTransportParams& params) {
   if (garment.vertices.empty()) return {};
-  const Anchors anchors = find_anchors(garment, clothed_body(garment, naked));
+  const Anchors anchors = find_anchors(garment, clothed_body(layout, naked));
   std::vector<Vector3d> cloth = blended(warp, garment.vertices, anchors.arm);
   if (params.keep_offset <= 0) return {cloth, anchors.arm};
   const std::vector<Vector3d> body = blended(warp, anchors.body, anchors.arm);

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "pipeline/fit/body_warp.h"
+#include "pipeline/garment/garment_layout.h"
 
 namespace dressform {
 
@@ -20,7 +21,7 @@ struct Transported {
   std::vector<Vector3d> vertices;
   std::vector<double> sleeve;  // per vertex, 0 on trunk and legs to 1 on sleeves
 };
-Transported transported(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp,
-                        const MeshQuery& user_surface, const ClothTransportParams& params);
+Transported transported(const Mesh& garment, const GarmentLayout& layout, const StandingBody& naked,
+                        const BodyWarp& warp, const MeshQuery& user_surface, const ClothTransportParams& params);
 
 }  // namespace dressform

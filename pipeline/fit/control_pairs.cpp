@@ -7,7 +7,14 @@
 namespace dressform {
 namespace {
 
-constexpr double kLegEnd = 0.06;        // of the way from floor to crotch: feet turn as they like
+constexpr double kLegEnd = 0.06;                            // of the way from floor to crotch: feet turn as they like
+constexpr double kTrunkReach_m = 0.4, kLegReach_m = 0.2;    // from the axis: beyond lies something else
+constexpr double kTrunkParts[] = {0.08, 0.22, 0.42, 0.28};  // of its rings, crotch to neck: as long as the parts are
+constexpr double kHeadLevels[] = {4.0, 4.25, 4.5, 4.75, 4.93};
+constexpr double kLegTop = 0.97, kArmTop = 0.05, kArmSpan = 0.85;  // of the limbs: where rings lie
+constexpr double kWholeArm = 0.88;  // of the other body's length over stature: a shorter arm has lost its hand
+// An arm against the trunk: from here down, no longer than arms are, this far about its axis.
+constexpr double kArmFrom_m = 0.08, kLongestArm = 0.45, kAgainstTrunk_m = 0.065;
 constexpr double kArmRadius_m = 0.085;  // nothing further from an arm's axis belongs to it
 
 struct Side {
@@ -38,11 +45,11 @@ void add_pairs(const Ring& from, const Ring& to, BodyPart part, std::vector<Cont
 // Whether the point is on an arm that lies against the trunk: near the arm's axis, drawn on past its last section.
 bool on_arm(const StandingBody& body, const Vector3d& point) {
   for (int side = 0; side < 2; ++side) {
-    const Limb* arm = body.limbs.arm(side);
+    const Limb* arm = body.landmarks.arm(side);
     if (!arm) continue;
     const double along = arm->along(point);
-    if (along < 0.08 || along > 0.45 * body.stature) continue;
-    if ((point - arm->root - along * arm->direction).norm() < 0.065) return true;
+    if (along < kArmFrom_m || along > kLongestArm * body.landmarks.stature) continue;
+    if ((point - arm->root - along * arm->direction).norm() < kAgainstTrunk_m) return true;
   }
   return false;
 }
@@ -53,12 +60,12 @@ Ring trunk_ring(const Side& side, double y, int angles, bool below_armpit) {
   if (!loop) return Ring(angles);
   Vector3d centre = loop->centroid;
   centre.y() = y;
-  const Vector3d &front = side.body.limbs.front, &left = side.body.limbs.left;
-  const Ring cross = ring(side.surface, centre, front, left, 4, 0.4);
+  const Vector3d &front = side.body.landmarks.front, &left = side.body.landmarks.left;
+  const Ring cross = ring(side.surface, centre, front, left, 4, kTrunkReach_m);
   for (const auto& hit : cross)
     if (!hit) return Ring(angles);
   const double depth = (*cross[0] - *cross[2]).norm() / 2, breadth = (*cross[1] - *cross[3]).norm() / 2;
-  Ring result = ring(side.surface, centre, depth * front, breadth * left, angles, 0.4);
+  Ring result = ring(side.surface, centre, depth * front, breadth * left, angles, kTrunkReach_m);
   if (below_armpit)
     for (auto& hit : result)
       if (hit && on_arm(side.body, *hit)) hit.reset();
@@ -67,22 +74,23 @@ Ring trunk_ring(const Side& side, double y, int angles, bool below_armpit) {
 
 // Height on either body at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 armpit, 4 neck, 5 top of the head.
 double trunk_height(const StandingBody& body, double t) {
-  return height_at(
-      {body.crotch_y, body.hip_y, body.waist_y, body.armpit_y, body.neck_y, body.limbs.floor_y + body.stature}, t);
+  const Landmarks& marks = body.landmarks;
+  return height_at({marks.crotch_y, marks.hip_y, marks.waist_y, marks.armpit_y, marks.neck_y,
+                    body.landmarks.floor_y + body.landmarks.stature},
+                   t);
 }
 
 void add_trunk(const Side& naked, const Side& user, const ControlPairParams& params, std::vector<ControlPair>& pairs) {
   // As many rings to each part of the trunk as it is long.
-  const double parts[] = {0.08, 0.22, 0.42, 0.28};
   for (int part = 0; part < 4; ++part) {
-    const int levels = std::max(1, static_cast<int>(std::lround(parts[part] * params.trunk_levels)));
+    const int levels = std::max(1, static_cast<int>(std::lround(kTrunkParts[part] * params.trunk_levels)));
     for (int level = 0; level < levels; ++level) {
       const double t = part + (level + 0.5) / levels;
       add_pairs(trunk_ring(naked, trunk_height(naked.body, t), params.trunk_angles, t < 3),
                 trunk_ring(user, trunk_height(user.body, t), params.trunk_angles, t < 3), BodyPart::torso, pairs);
     }
   }
-  for (const double t : {4.0, 4.25, 4.5, 4.75, 4.93})
+  for (const double t : kHeadLevels)
     add_pairs(trunk_ring(naked, trunk_height(naked.body, t), 8, false),
               trunk_ring(user, trunk_height(user.body, t), 8, false), BodyPart::head, pairs);
 }
@@ -99,15 +107,16 @@ Vector3d middle_at(const Limb& limb, double y) {
 
 void add_leg(const Side& naked, const Side& user, int side, const ControlPairParams& params,
              std::vector<ControlPair>& pairs) {
-  const Limb *from = naked.body.limbs.leg(side), *to = user.body.limbs.leg(side);
+  const Limb *from = naked.body.landmarks.leg(side), *to = user.body.landmarks.leg(side);
   if (!from || !to) return;
   const auto leg_ring = [&](const Side& each, const Limb& limb, double t) {
-    const double y = each.body.limbs.floor_y + t * (each.body.crotch_y - each.body.limbs.floor_y);
+    const Landmarks& marks = each.body.landmarks;
+    const double y = marks.floor_y + t * (marks.crotch_y - marks.floor_y);
     if (y > limb.fork_y) return Ring(params.limb_angles);
-    return ring(each.surface, middle_at(limb, y), each.body.limbs.front, each.body.limbs.left, params.limb_angles, 0.2);
+    return ring(each.surface, middle_at(limb, y), marks.front, marks.left, params.limb_angles, kLegReach_m);
   };
   for (int level = 0; level < params.limb_levels; ++level) {
-    const double t = kLegEnd + (0.97 - kLegEnd) * level / (params.limb_levels - 1);
+    const double t = kLegEnd + (kLegTop - kLegEnd) * level / (params.limb_levels - 1);
     add_pairs(leg_ring(naked, *from, t), leg_ring(user, *to, t), side == 0 ? BodyPart::left_leg : BodyPart::right_leg,
               pairs);
   }
@@ -115,24 +124,24 @@ void add_leg(const Side& naked, const Side& user, int side, const ControlPairPar
 
 // Armpit to finger tips. Where the hand is lost against the thigh, as long as the other body's for its stature.
 double arm_length(const StandingBody& body, const Limb& arm, const StandingBody& other, const Limb& other_arm) {
-  const double own = arm.length / body.stature, others = other_arm.length / other.stature;
-  return own < 0.88 * others ? others * body.stature : arm.length;
+  const double own = arm.length / body.landmarks.stature, others = other_arm.length / other.landmarks.stature;
+  return own < kWholeArm * others ? others * body.landmarks.stature : arm.length;
 }
 
 void add_arm(const Side& naked, const Side& user, int side, const ControlPairParams& params,
              std::vector<ControlPair>& pairs) {
-  const Limb *from = naked.body.limbs.arm(side), *to = user.body.limbs.arm(side);
+  const Limb *from = naked.body.landmarks.arm(side), *to = user.body.landmarks.arm(side);
   if (!from || !to) return;
   const double from_length = arm_length(naked.body, *from, user.body, *to);
   const double to_length = arm_length(user.body, *to, naked.body, *from);
   const auto arm_ring = [&](const Side& each, const Limb& limb, double along) {
     const Vector3d middle = middle_at(limb, limb.root.y() + along * limb.direction.y());
     const Vector3d u =
-        (each.body.limbs.front - each.body.limbs.front.dot(limb.direction) * limb.direction).normalized();
+        (each.body.landmarks.front - each.body.landmarks.front.dot(limb.direction) * limb.direction).normalized();
     return ring(each.surface, middle, u, limb.direction.cross(u), params.limb_angles, kArmRadius_m);
   };
   for (int level = 0; level < params.limb_levels; ++level) {
-    const double t = 0.05 + 0.85 * level / (params.limb_levels - 1);
+    const double t = kArmTop + kArmSpan * level / (params.limb_levels - 1);
     add_pairs(arm_ring(naked, *from, t * from_length), arm_ring(user, *to, t * to_length),
               side == 0 ? BodyPart::left_arm : BodyPart::right_arm, pairs);
   }

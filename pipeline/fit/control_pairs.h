@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
-#include "pipeline/fit/standing_body.h"
+#include "pipeline/body/body_landmarks.h"
+#include "pipeline/body/standing_body.h"
 #include "pipeline/geometry/mesh_query.h"
 
 namespace dressform {

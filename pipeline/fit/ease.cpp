@@ -16,6 +16,10 @@ namespace {
 constexpr int kLevels = 90;        // over the trunk
 constexpr double kLastPart = 3.8;  // just below the armpits: above, cloth of trunk and sleeves is one
 constexpr double kFade_m = 0.015;
+constexpr double kWholeTurn = 0.95;           // of a turn: lines that come so far round close
+constexpr double kWidestGap = M_PI / 3;       // under an arm cloth of the trunk may be missing
+constexpr std::size_t kFewestCrossings = 20;  // of cloth and level, to measure a girth
+constexpr double kNearAxis_m = 0.03;          // of the trunk: there is no way out from there
 
 // A connected line of the garment's section: its points, and its pieces from point to point.
 struct Line {
@@ -60,7 +64,7 @@ bool goes_round(const Line& line, const Vector3d& centre) {
     const Vector3d a = line.points[from] - centre, b = line.points[to] - centre;
     turn += std::atan2(a.x() * b.z() - a.z() * b.x(), a.x() * b.x() + a.z() * b.z());
   }
-  return std::abs(turn) > 0.95 * 2 * M_PI;
+  return std::abs(turn) > kWholeTurn * 2 * M_PI;
 }
 
 Vector3d middle_of(const std::vector<Vector3d>& points) {
@@ -93,14 +97,14 @@ std::vector<cv::Point2f> crossings(const Mesh& garment, const TrunkOutline& body
   return alone.empty() ? near : alone;
 }
 
-// No gap wider than 60 degrees: under an arm cloth of the trunk may be missing.
+// No gap wider than kWidestGap.
 bool goes_round(const std::vector<cv::Point2f>& points, const Vector3d& centre) {
   std::vector<double> angles;
   for (const auto& p : points) angles.push_back(std::atan2(p.y - centre.z(), p.x - centre.x()));
   std::sort(angles.begin(), angles.end());
   double gap = angles.front() + 2 * M_PI - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
-  return gap < M_PI / 3;
+  return gap < kWidestGap;
 }
 
 // Tape girth of cloth minus body at height y, m; nothing where the cloth does not go round.
@@ -108,7 +112,7 @@ std::optional<double> ease_at(const Mesh& garment, const StandingBody& body, dou
   const TrunkOutline outline = body.outline_at(y);
   if (outline.trunk.points.empty()) return {};
   const auto points = crossings(garment, outline, body.sections.y(body.sections.level(y)));
-  if (points.size() < 20 || !goes_round(points, outline.trunk.centroid)) return {};
+  if (points.size() < kFewestCrossings || !goes_round(points, outline.trunk.centroid)) return {};
   std::vector<cv::Point2f> hull;
   cv::convexHull(points, hull);
   return cv::arcLength(hull, true) - tape_girth(outline.trunk);
@@ -116,7 +120,8 @@ std::optional<double> ease_at(const Mesh& garment, const StandingBody& body, dou
 
 // Height at part t of the trunk: 0 crotch, 1 hip, 2 waist, 3 chest, 4 armpit.
 double tape_height(const StandingBody& body, double t) {
-  return height_at({body.crotch_y, body.hip_y, body.waist_y, body.chest_y, body.armpit_y}, t);
+  const Landmarks& marks = body.landmarks;
+  return height_at({marks.crotch_y, marks.hip_y, marks.waist_y, marks.chest_y, marks.armpit_y}, t);
 }
 
 // Moves the cloth away from the trunk's axis by what is wanted near its height, faded over the height.
@@ -136,7 +141,7 @@ void widen(const StandingBody& user, const std::vector<double>& weights,
     const SectionLoop* loop = user.trunk_loop(p.y());
     Vector3d out = loop ? Vector3d(p - loop->centroid) : Vector3d::Zero();
     out.y() = 0;
-    if (weights[v] > 0 && out.norm() > 0.03) p += weights[v] * change_at(p.y()) * out.normalized();
+    if (weights[v] > 0 && out.norm() > kNearAxis_m) p += weights[v] * change_at(p.y()) * out.normalized();
   });
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "pipeline/fit/standing_body.h"
+#include "pipeline/body/standing_body.h"
 
 namespace dressform {
 

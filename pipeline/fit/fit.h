@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/fuse/fuse.h"
+#include "pipeline/body/body_landmarks.h"
+#include "pipeline/garment/garment_layout.h"
 #include "pipeline/run/stage.h"
 #include "pipeline/texture/texture.h"
 
@@ -11,6 +12,7 @@ namespace dressform {
 
 struct FittedGarments {
   std::map<std::string, TexturedMesh> garments;  // on the user, in the user scan's model frame; same triangles and UV
+  GarmentLayouts layouts;                        // of these on the user's body
   Mesh deformed_body;                            // the naked model moved by the same function
   double body_rms_m = 0;                         // deformed body to user body
   int control_points = 0;
@@ -18,7 +20,7 @@ struct FittedGarments {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(garments, deformed_body, body_rms_m, control_points, foldovers);
+    archive(garments, layouts, deformed_body, body_rms_m, control_points, foldovers);
   }
 };
 
@@ -26,6 +28,11 @@ struct FitTag {
   static constexpr const char* name = "fit";
   static constexpr const char* default_variant = "rbf";
 };
-using Fit = Stage<FitTag, FittedGarments(const BodyModel& naked, const BodyModel& user, const TexturedGarments&)>;
+// The garments taken from the mannequin to the user. In: both bodies with their landmarks, each in its own model frame
+// (m, y up), the garments and their layouts on the mannequin. Out: m, model frame of the user's scan. Throws InputError
+// for a body without triangles or trunk, and for a garment without layout. The thesis (section 3.6) uses radial basis
+// functions (Carr et al., SIGGRAPH 2001) on pairs picked by hand.
+using Fit = Stage<FitTag, FittedGarments(const KnownBody& naked, const KnownBody& user, const TexturedGarments&,
+                                         const GarmentLayouts&)>;
 
 }  // namespace dressform

@@ -5,8 +5,9 @@
 
 #include <cmath>
 
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/fit/rbf_field.h"
-#include "pipeline/fit/standing_body.h"
+#include "pipeline/garment/sleeves.h"
 #include "pipeline/testing/figure.h"
 #include "scenes/error.h"
 #include "scenes/serialize.h"
@@ -56,31 +57,22 @@ TEST(RbfField, UglyControls) {
   EXPECT_THROW(RbfField(cloud(3), cloud(4), RbfField::Kernel::linear, 0), std::invalid_argument);
 }
 
-class Headings : public testing::TestWithParam<double> {};
-
-TEST_P(Headings, AreFoundFromTheOutlines) {
-  FigureSpec spec;
-  const StandingBody naked = analyse_body(make_figure(spec));
-  spec.yaw = GetParam();
-  spec.stature_m = 1.65;
-  spec.breadth = 1.15;
-  const FacingUser facing = face_alike(naked, make_figure(spec));
-  const Eigen::AngleAxisd turn(spec.yaw, Vector3d::UnitY());
-  EXPECT_GT(facing.user.limbs.front.dot(turn * naked.limbs.front), std::cos(0.06));
-}
-INSTANTIATE_TEST_SUITE_P(AllRound, Headings, testing::Values(0.0, 1.3, 3.1, -2.0));
-
 struct Try {
-  BodyModel naked, user;
+  KnownBody naked, user;
   TexturedGarments clothes;
+  GarmentLayouts layouts;
 };
 
 Try make_try(const FigureSpec& user) {
   Try result;
-  result.naked.body = make_figure({});
+  result.naked = known_body(make_figure({}));
+  const Vector3d front(std::sin(user.yaw), 0, std::cos(user.yaw));
   result.user.body = make_figure(user);
+  result.user.landmarks = with_front(find_landmarks(result.user.body, front), front);
   result.clothes.garments["top"] = make_tube(0.175, 1.02, 1.25);
   result.clothes.garments["bottom"] = make_tube(0.18, 0.5, 1.05);
+  result.layouts["top"].kind = "shirt";
+  result.layouts["bottom"].kind = "skirt";
   return result;
 }
 
@@ -96,7 +88,7 @@ double mean_radius(const Mesh& mesh, double from, double to) {
 TEST(Fit, EveryVariantKeepsTrianglesAndSurvives) {
   const Try input = make_try({1.65, 1.1, 18, 2.0});
   for (const auto& name : Fit::names()) {
-    const auto result = Fit::at(name).run(input.naked, input.user, input.clothes, {}, 1);
+    const auto result = Fit::at(name).run(input.naked, input.user, input.clothes, input.layouts, {}, 1);
     ASSERT_EQ(result.garments.size(), 2u) << name;
     for (const auto& [slot, garment] : result.garments) {
       const auto& before = input.clothes.garments.at(slot);
@@ -104,13 +96,15 @@ TEST(Fit, EveryVariantKeepsTrianglesAndSurvives) {
       EXPECT_EQ(garment.corner_uv, before.corner_uv) << name;
       for (const auto& v : garment.mesh.vertices) ASSERT_TRUE(v.allFinite()) << name;
     }
-    EXPECT_EQ(to_bytes(result), to_bytes(Fit::at(name).run(input.naked, input.user, input.clothes, {}, 1))) << name;
+    EXPECT_EQ(to_bytes(result),
+              to_bytes(Fit::at(name).run(input.naked, input.user, input.clothes, input.layouts, {}, 1)))
+        << name;
   }
 }
 
 TEST(Fit, TheSameBodyTurnedLeavesTheClothesInPlace) {
   const Try input = make_try({1.8, 1, 15, 2.0});
-  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1);
+  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, input.layouts, {}, 1);
   EXPECT_LT(result.body_rms_m, 0.004);
   for (const auto& [slot, garment] : result.garments) {
     const auto& before = input.clothes.garments.at(slot).mesh;
@@ -125,13 +119,13 @@ TEST(Fit, TheSameBodyTurnedLeavesTheClothesInPlace) {
 
 TEST(Fit, KeepsTheEaseOnAMuchWiderBody) {
   const Try input = make_try({1.7, 1.25, 15, -1.0});
-  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1);
+  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, input.layouts, {}, 1);
   EXPECT_LT(result.body_rms_m, 0.006);
   const double grown = mean_radius(result.garments.at("top").mesh, 1.05, 1.12) - 0.15 * 1.25;
   EXPECT_NEAR(2 * M_PI * grown, 2 * M_PI * 0.025, 0.012);
   // Without it the map scales the offset too.
-  const auto scaled =
-      Fit::at("rbf").run(input.naked, input.user, input.clothes, {{"keep_offset", 0.0}, {"ease_rounds", 0}}, 1);
+  const auto scaled = Fit::at("rbf").run(input.naked, input.user, input.clothes, input.layouts,
+                                         {{"keep_offset", 0.0}, {"ease_rounds", 0}}, 1);
   EXPECT_GT(mean_radius(scaled.garments.at("top").mesh, 1.05, 1.12) - 0.15 * 1.25, grown);
 }
 
@@ -155,7 +149,10 @@ TEST(Fit, WideSleevesBesideTheTrunkAreNotItsCloth) {
   const std::size_t of_trunk = top.mesh.vertices.size();
   for (const double side : {-1.0, 1.0}) add_sleeve(naked, side, 0.085, top.mesh);
   top.corner_uv.resize(top.mesh.triangles.size(), top.corner_uv[0]);
-  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1);
+  GarmentLayout& layout = input.layouts["top"];
+  layout = with_sleeve_ends(layout, top.mesh, input.naked.landmarks);
+  for (LimbCover& arm : layout.arms) arm.covered = true;
+  const auto result = Fit::at("rbf").run(input.naked, input.user, input.clothes, input.layouts, {}, 1);
   Mesh trunk = result.garments.at("top").mesh;
   trunk.vertices.resize(of_trunk);
   EXPECT_NEAR(2 * M_PI * (mean_radius(trunk, 1.05, 1.12) - 0.15 * 1.15), 2 * M_PI * 0.025, 0.006);
@@ -163,24 +160,25 @@ TEST(Fit, WideSleevesBesideTheTrunkAreNotItsCloth) {
 
 TEST(Fit, TheNumberOfThreadsDoesNotMatter) {
   const Try input = make_try({1.65, 1.1, 18, 2.0});
-  const auto both = to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1));
+  const auto both = to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, input.layouts, {}, 1));
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(both, to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, 1)));
+  EXPECT_EQ(both, to_bytes(Fit::at("rbf").run(input.naked, input.user, input.clothes, input.layouts, {}, 1)));
 }
 
 TEST(Fit, UniformScalesByTheShoulderHeight) {
   const Try input = make_try({0.9 * 1.8, 1, 15, 0});
-  const auto result = Fit::at("uniform").run(input.naked, input.user, input.clothes, {}, 1);
+  const auto result = Fit::at("uniform").run(input.naked, input.user, input.clothes, input.layouts, {}, 1);
   EXPECT_NEAR(mean_radius(result.garments.at("top").mesh, 0, 2), 0.9 * 0.175, 0.006);
 }
 
 TEST(Fit, MissingInputIsNamed) {
   Try input = make_try({});
   const TexturedGarments none;
-  EXPECT_TRUE(Fit::at("rbf").run(input.naked, input.user, none, {}, 1).garments.empty());
-  input.user.body = {};
+  EXPECT_TRUE(Fit::at("rbf").run(input.naked, input.user, none, {}, {}, 1).garments.empty());
+  EXPECT_THROW(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, {}, 1), InputError);
+  input.user = {};
   for (const auto& name : Fit::names())
-    EXPECT_THROW(Fit::at(name).run(input.naked, input.user, input.clothes, {}, 1), InputError) << name;
+    EXPECT_THROW(Fit::at(name).run(input.naked, input.user, input.clothes, input.layouts, {}, 1), InputError) << name;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "pipeline/geometry/mesh_query.h"
 #include "pipeline/geometry/sector.h"
+#include "pipeline/geometry/submesh.h"
 #include "scenes/disjoint_sets.h"
 
 namespace dressform {
@@ -74,11 +75,9 @@ ClothSides sides_of(const Mesh& garment, const Axis& one, const Axis& other, dou
 }
 
 Mesh part_of(const StandingBody& body, const std::function<bool(BodyPart)>& wanted) {
-  Mesh result;
-  result.vertices = body.mesh.vertices;
-  for (std::size_t i = 0; i < body.mesh.triangles.size(); ++i)
-    if (wanted(body.limbs.triangle_parts[i])) result.triangles.push_back(body.mesh.triangles[i]);
-  return result;
+  std::vector<char> kept;
+  for (const BodyPart part : body.landmarks.triangle_parts) kept.push_back(wanted(part));
+  return submesh(body.mesh, kept);
 }
 
 // Two parts of the user's body with cloth between them.
@@ -107,7 +106,7 @@ void keep_apart(const ClothSides& sides, const Neighbours& parts, const Standing
       const Vector3d p = cloth[v];
       const auto to_own = own.closest(p), to_other = other.closest(p), to_body = user_surface.closest(p);
       const bool inside = user_surface.signed_distance(p, to_body) < 0;
-      const BodyPart nearest = user.limbs.part_of(to_body.triangle);
+      const BodyPart nearest = user.landmarks.part_of(to_body.triangle);
       const double from_own = inside && is_own(nearest) ? -to_own.distance : to_own.distance;
       const double from_other = inside && is_other(nearest) ? -to_other.distance : to_other.distance;
       const double over = from_own - from_other + 2 * gap_m;
@@ -123,17 +122,18 @@ void keep_apart(const ClothSides& sides, const Neighbours& parts, const Standing
 
 }  // namespace
 
-ClothLimbs limbs_of_cloth(const Mesh& garment, const StandingBody& wearer) {
+ClothLimbs limbs_of_cloth(const Mesh& garment, const GarmentLayout& layout, const StandingBody& wearer) {
   constexpr double kAbove_m = 0.03;  // of a fork as the body's sections tell it
   const ClothSides none(garment.vertices.size(), 0);
   ClothLimbs result{none, {none, none}};
-  const BodyLimbs& limbs = wearer.limbs;
-  if (limbs.left_leg && limbs.right_leg)
-    result.legs = sides_of(garment, axis_of(*limbs.left_leg), axis_of(*limbs.right_leg), wearer.crotch_y + kAbove_m);
+  const Landmarks& limbs = wearer.landmarks;
+  if (layout.forked() && limbs.left_leg && limbs.right_leg)
+    result.legs =
+        sides_of(garment, axis_of(*limbs.left_leg), axis_of(*limbs.right_leg), wearer.landmarks.crotch_y + kAbove_m);
   for (int side = 0; side < 2; ++side)
-    if (const Limb* arm = limbs.arm(side))
-      result.arms[side] =
-          sides_of(garment, axis_of(*arm), {wearer.axis, Vector3d::UnitY()}, wearer.armpit_y + kAbove_m);
+    if (const Limb* arm = limbs.arm(side); arm && layout.arms[side].covered)
+      result.arms[side] = sides_of(garment, axis_of(*arm), {wearer.landmarks.axis, Vector3d::UnitY()},
+                                   wearer.landmarks.armpit_y + kAbove_m);
   return result;
 }
 

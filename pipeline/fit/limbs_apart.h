@@ -2,7 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "pipeline/fit/standing_body.h"
+#include "pipeline/body/standing_body.h"
+#include "pipeline/garment/garment_layout.h"
 
 namespace dressform {
 
@@ -15,7 +16,8 @@ struct ClothLimbs {
   ClothSides legs;                 // 1 left, -1 right; 0 throughout for what does not part (shirts, skirts)
   std::array<ClothSides, 2> arms;  // of the left and right arm: 1 the sleeve, -1 the rest below where the two part
 };
-ClothLimbs limbs_of_cloth(const Mesh& garment, const StandingBody& wearer);
+// `layout`: of the garment on its wearer, which says what parts at all.
+ClothLimbs limbs_of_cloth(const Mesh& garment, const GarmentLayout& layout, const StandingBody& wearer);
 
 // The fitted garment's vertices with cloth of either side kept `gap_m` off the surface midway between the user's legs,
 // and between each arm and the rest: what touches presses the cloth between it flat, and a garment never passes through

@@ -2,12 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "pipeline/testing/figure.h"
 
 namespace dressform {
 namespace {
 
-double aside(const StandingBody& body, const Vector3d& point) { return body.limbs.left.dot(point - body.limbs.hips()); }
+double aside(const StandingBody& body, const Vector3d& point) {
+  return body.landmarks.left.dot(point - body.landmarks.hips());
+}
+
+GarmentLayout of_kind(const std::string& kind) {
+  GarmentLayout layout;
+  layout.kind = kind;
+  return layout;
+}
 
 // Two tubes round the figure's legs, so wide that each reaches 11 mm over the middle.
 Mesh crossing_legs() {
@@ -23,8 +33,8 @@ Mesh crossing_legs() {
 
 TEST(LimbsApart, LegsAreToldByWhereTheGarmentParts) {
   const Mesh figure = make_figure({});
-  const StandingBody body = analyse_body(figure);
-  const auto leg = limbs_of_cloth(figure, body).legs;  // as if it were overalls
+  const StandingBody body(known_body(figure));
+  const auto leg = limbs_of_cloth(figure, of_kind("trousers"), body).legs;  // as if it were overalls
   int wrong = 0, of_legs = 0;
   for (std::size_t v = 0; v < leg.size(); ++v) {
     const double off = aside(body, figure.vertices[v]);
@@ -39,15 +49,17 @@ TEST(LimbsApart, LegsAreToldByWhereTheGarmentParts) {
 }
 
 TEST(LimbsApart, ShirtsAndSkirtsHaveNoLegs) {
-  const StandingBody body = analyse_body(make_figure({}));
+  const StandingBody body(known_body(make_figure({})));
   for (const Mesh& garment : {make_tube(0.22, 0.4, 1.05).mesh, make_tube(0.175, 1.02, 1.25).mesh, Mesh{}})
-    for (const int leg : limbs_of_cloth(garment, body).legs) ASSERT_EQ(leg, 0);
+    for (const char* kind : {"skirt", "shirt", "trousers"})  // of trousers as short as that, neither part
+      for (const int leg : limbs_of_cloth(garment, of_kind(kind), body).legs) ASSERT_EQ(leg, 0);
+  for (const int leg : limbs_of_cloth(crossing_legs(), of_kind("skirt"), body).legs) ASSERT_EQ(leg, 0);
 }
 
 TEST(LimbsApart, ClothStaysOnItsSideOfTheMiddle) {
-  const StandingBody body = analyse_body(make_figure({}));
+  const StandingBody body(known_body(make_figure({})));
   const Mesh legs = crossing_legs();
-  const ClothLimbs limbs = limbs_of_cloth(legs, body);
+  const ClothLimbs limbs = limbs_of_cloth(legs, of_kind("trousers"), body);
   const auto apart = limbs_kept_apart(legs, limbs, body, MeshQuery(body.mesh), 0.001);
   int moved = 0;
   for (std::size_t v = 0; v < apart.size(); ++v) {

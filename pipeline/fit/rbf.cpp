@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/body/standing_body.h"
 #include "pipeline/fit/body_warp.h"
 #include "pipeline/fit/cloth_transport.h"
 #include "pipeline/fit/ease.h"
 #include "pipeline/fit/fit.h"
 #include "pipeline/fit/fit_result.h"
 #include "pipeline/fit/limbs_apart.h"
-#include "pipeline/fit/standing_body.h"
 
 namespace dressform {
 namespace {
 
 constexpr double kBetweenLimbs_m = 0.001;  // of cloth from the surface midway between two parts of the user's body
+
+constexpr double kEaseStep_m = 0.01;  // of radius a round, at most
 
 struct RbfParams {
   std::string kernel = "r";
@@ -27,26 +29,12 @@ struct RbfParams {
 template <class V>
 void fields(V& v, RbfParams& p) {
   v("kernel", p.kernel, {"r", "r3"}, "radial basis function beside the affine part");
-  v("smoothing_m", p.smoothing_m, 0.0, 1.0, "", "how much the map may miss its targets for smoothness");
+  v("smoothing_m", p.smoothing_m, 0.0, 1.0, "m", "how much the map may miss its targets for smoothness");
   v("rounds", p.rounds, 0, 5, "", "of snapping the warped body to the user's surface");
   v("snap_spacing_m", p.snap_spacing_m, 0.03, 0.2, "m", "between the body's points that are snapped");
   v("keep_offset", p.keep_offset, 0.0, 1.0, "",
     "0: the map alone moves the cloth; 1: cloth keeps its distance from the body");
   v("ease_rounds", p.ease_rounds, 0, 10, "", "of measuring girths round the trunk and moving cloth to keep the ease");
-}
-
-// The naked model's frame turned and shifted about the vertical to face as the user does and stand where the user does.
-Eigen::Matrix4d user_from_naked(const StandingBody& naked, const StandingBody& user) {
-  Eigen::Matrix3d naked_axes, user_axes;
-  naked_axes << naked.limbs.left, Vector3d::UnitY(), naked.limbs.front;
-  user_axes << user.limbs.left, Vector3d::UnitY(), user.limbs.front;
-  const Eigen::Matrix3d rotation = user_axes * naked_axes.transpose();
-  Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
-  motion.topLeftCorner<3, 3>() = rotation;
-  Vector3d shift = user.axis - rotation * naked.axis;
-  shift.y() = user.limbs.floor_y - naked.limbs.floor_y;
-  motion.topRightCorner<3, 1>() = shift;
-  return motion;
 }
 
 BodyWarpParams warp_params(const RbfParams& params) {
@@ -58,31 +46,28 @@ BodyWarpParams warp_params(const RbfParams& params) {
   return result;
 }
 
-Mesh fitted_mesh(const Mesh& garment, const StandingBody& naked, const BodyWarp& warp, const StandingBody& user,
-                 const MeshQuery& user_surface, const RbfParams& params) {
+Mesh fitted_mesh(const Mesh& garment, const GarmentLayout& layout, const StandingBody& naked, const BodyWarp& warp,
+                 const StandingBody& user, const MeshQuery& user_surface, const RbfParams& params) {
   ClothTransportParams transport;
   transport.keep_offset = params.keep_offset;
-  const Transported moved = transported(garment, naked, warp, user_surface, transport);
+  const Transported moved = transported(garment, layout, naked, warp, user_surface, transport);
   Mesh result{moved.vertices, garment.triangles};
   std::vector<double> trunk(moved.sleeve.size());
   for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = 1 - moved.sleeve[v];
   // Before the ease is measured, so that no sleeve stands in the trunk's cloth; and after it was given back.
-  const ClothLimbs limbs = limbs_of_cloth(garment, naked);
+  const ClothLimbs limbs = limbs_of_cloth(garment, layout, naked);
   result.vertices = limbs_kept_apart(result, limbs, user, user_surface, kBetweenLimbs_m);
-  result.vertices = with_ease_kept(garment, naked, result, user, trunk, 0.01, params.ease_rounds);
+  result.vertices = with_ease_kept(garment, naked, result, user, trunk, kEaseStep_m, params.ease_rounds);
   result.vertices = limbs_kept_apart(result, limbs, user, user_surface, kBetweenLimbs_m);
   return result;
 }
 
-FittedGarments rbf(const BodyModel& naked_model, const BodyModel& user_model, const TexturedGarments& clothes,
-                   const RbfParams& params) {
+FittedGarments rbf(const KnownBody& naked_model, const KnownBody& user_model, const TexturedGarments& clothes,
+                   const GarmentLayouts& layouts, const RbfParams& params) {
   require_bodies(naked_model, user_model, "fit.rbf");
-  const StandingBody found = analyse_body(naked_model.body);
-  const StandingBody user = face_alike(found, user_model.body).user;
-  const Eigen::Matrix4d motion = user_from_naked(found, user);
-  StandingBody naked = analyse_body(transformed(found.mesh, motion), user.limbs.front);
-  naked.limbs.front = user.limbs.front;
-  naked.limbs.left = user.limbs.left;
+  const Eigen::Matrix4d motion = user_from_naked(naked_model.landmarks, user_model.landmarks);
+  const StandingBody user(user_model);
+  const StandingBody naked({transformed(naked_model.body, motion), transformed(naked_model.landmarks, motion)});
 
   const MeshQuery naked_surface(naked.mesh), user_surface(user.mesh);
   const BodyWarp warp = warp_body(naked, naked_surface, user, user_surface, warp_params(params));
@@ -90,9 +75,10 @@ FittedGarments rbf(const BodyModel& naked_model, const BodyModel& user_model, co
   FittedGarments result;
   for (const auto& [name, garment] : clothes.garments) {
     const Mesh turned = transformed(garment.mesh, motion);
-    const Mesh fitted = fitted_mesh(turned, naked, warp, user, user_surface, params);
+    const GarmentLayout& layout = layout_of(name, layouts, "fit.rbf");
+    const Mesh fitted = fitted_mesh(turned, layout, naked, warp, user, user_surface, params);
     result.foldovers += count_foldovers(turned, fitted);
-    result.garments[name] = with_vertices(garment, fitted.vertices);
+    add_fitted(name, garment, fitted.vertices, layout, user_model, user_surface, result);
   }
   result.deformed_body = warped_body(naked, warp);
   result.body_rms_m = rms_distance(result.deformed_body, user_surface);

@@ -1,7 +1,6 @@
 // The EON baseline: clothes scaled uniformly by the ratio of the shoulder heights.
 #include "pipeline/fit/fit.h"
 #include "pipeline/fit/fit_result.h"
-#include "pipeline/fit/standing_body.h"
 
 namespace dressform {
 namespace {
@@ -10,28 +9,20 @@ struct UniformParams {};
 template <class V>
 void fields(V&, UniformParams&) {}
 
-FittedGarments uniform(const BodyModel& naked_model, const BodyModel& user_model, const TexturedGarments& clothes,
-                       const UniformParams&) {
-  require_bodies(naked_model, user_model, "fit.uniform");
-  const StandingBody naked = analyse_body(naked_model.body);
-  const StandingBody user = face_alike(naked, user_model.body).user;
-  const double scale = (user.armpit_y - user.limbs.floor_y) / (naked.armpit_y - naked.limbs.floor_y);
-  const Eigen::Vector3d up = Vector3d::UnitY();
-  Eigen::Matrix3d naked_axes, user_axes;
-  naked_axes << naked.limbs.left, up, naked.limbs.front;
-  user_axes << user.limbs.left, up, user.limbs.front;
-  Vector3d naked_origin = naked.axis, user_origin = user.axis;
-  naked_origin.y() = naked.limbs.floor_y;
-  user_origin.y() = user.limbs.floor_y;
-  Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
-  motion.topLeftCorner<3, 3>() = scale * user_axes * naked_axes.transpose();
-  motion.topRightCorner<3, 1>() = user_origin - motion.topLeftCorner<3, 3>() * naked_origin;
+FittedGarments uniform(const KnownBody& naked, const KnownBody& user, const TexturedGarments& clothes,
+                       const GarmentLayouts& layouts, const UniformParams&) {
+  require_bodies(naked, user, "fit.uniform");
+  const Landmarks &from = naked.landmarks, &to = user.landmarks;
+  const double scale = (to.armpit_y - to.floor_y) / (from.armpit_y - from.floor_y);
+  const Eigen::Matrix4d motion = user_from_naked(from, to, scale);
 
+  const MeshQuery surface(user.body);
   FittedGarments result;
   for (const auto& [name, garment] : clothes.garments)
-    result.garments[name] = with_vertices(garment, transformed(garment.mesh, motion).vertices);
-  result.deformed_body = transformed(naked.mesh, motion);
-  result.body_rms_m = rms_distance(result.deformed_body, MeshQuery(user.mesh));
+    add_fitted(name, garment, transformed(garment.mesh, motion).vertices, layout_of(name, layouts, "fit.uniform"), user,
+               surface, result);
+  result.deformed_body = transformed(naked.body, motion);
+  result.body_rms_m = rms_distance(result.deformed_body, surface);
   return result;
 }
 

@@ -9,7 +9,10 @@
 namespace dressform {
 namespace {
 
-constexpr int kLeastInliers = 60;
+constexpr int kLeastInliers = 60;                     // for six unknowns with much to spare
+constexpr double kStill_rad = 2e-5, kStill_m = 5e-5;  // steps that move no point of a body by a tenth of a millimetre
+constexpr double kAnchor = 1e6;    // weight of the frame that the others are measured from, over its own equations
+constexpr double kDamping = 1e-9;  // the same for all others: keeps what no pair holds where it is
 
 }  // namespace
 
@@ -39,7 +42,7 @@ FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projec
       result.inlier_part = static_cast<double>(sum.inliers) / sum.visible;
       result.cost = sum.cost / sum.visible;
       result.converged = true;
-      if (twist.head<3>().norm() < 2e-5 && twist.tail<3>().norm() < 5e-5) break;
+      if (negligible(twist, kStill_rad, kStill_m)) break;
     }
   return result;
 }
@@ -69,7 +72,7 @@ std::vector<Vector6d> solve_poses(int count, const std::vector<std::pair<int, in
   }
   for (int i = 0; i < count; ++i) {
     const double scale = std::max(1.0, diagonal[i].trace());
-    const double anchor = i == fixed || diagonal[i].trace() == 0 ? 1e6 * scale : 1e-9 * scale;
+    const double anchor = i == fixed || diagonal[i].trace() == 0 ? kAnchor * scale : kDamping * scale;
     add(i, i, diagonal[i] + anchor * Matrix6d::Identity());
   }
   Eigen::SparseMatrix<double> matrix(6 * count, 6 * count);
@@ -114,7 +117,7 @@ GlobalAlignment align_all(const ScanFrames& frames, const Projector& projector,
       result.residual_rms_m = inliers ? std::sqrt(squares / inliers) : 0;
       result.last_step_m = largest;
       ++result.iterations;
-      if (largest < 5e-5) break;
+      if (largest < kStill_m) break;
     }
   result.world_from_frame = std::move(world_from_frame);
   return result;

@@ -12,6 +12,11 @@ namespace {
 constexpr int kKeyBits = 21, kKeyOffset = 1 << 20;
 constexpr int kTile = 8;
 constexpr std::size_t kLeastFrames = 3;  // that saw something in a block
+constexpr float kLargestStep_m = 0.03f;  // between the four pixels of one surface, to read depth between them
+constexpr float kInFront_m = 0.1f;       // what is nearer to the sensor than this it does not see
+constexpr float kHalfDiagonal = 0.87f;   // of a cube, in edges: sqrt(3) / 2, rounded up
+constexpr float kWithinBand = 0.95f;     // of the truncation: values at the band's end are no distances
+constexpr float kLeastGradient = 0.2f;   // of a voxel's edge, from neighbour to neighbour: else there is no direction
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
@@ -74,7 +79,7 @@ FrameView frame_view(const cv::Mat& depth_m, const DepthMap& map, const Camera& 
 // Whether a ball may hold anything that the frame saw, or that lies in front of it.
 bool may_see(const FrameView& view, const Projector& projector, const Camera& camera, const Vector3f& centre,
              float radius_m) {
-  if (centre.z() < radius_m + 0.1f) return false;
+  if (centre.z() < radius_m + kInFront_m) return false;
   Vector2f pixel;
   if (!projector(centre, pixel)) return false;
   const float reach = (radius_m / centre.z() * static_cast<float>(camera.fx) + 2) / view.shrink;
@@ -96,7 +101,8 @@ void integrate(const FrameView& view, const Projector& projector, const Camera& 
   constexpr int kEdge = BlockVolume::kEdge;
   const auto voxel_m = static_cast<float>(options.voxel_m), truncation_m = static_cast<float>(options.truncation_m);
   const Vector3f middle = origin + Vector3f::Constant(0.5f * (kEdge - 1) * voxel_m);
-  if (!may_see(view, projector, camera, view.rotation * middle + view.translation, 0.87f * kEdge * voxel_m)) return;
+  if (!may_see(view, projector, camera, view.rotation * middle + view.translation, kHalfDiagonal * kEdge * voxel_m))
+    return;
   const Vector3f first = view.rotation * origin + view.translation, step = view.rotation.col(0) * voxel_m;
   const float per_pixel = 1.0f / view.shrink;
   for (int z = 0, k = 0; z < kEdge; ++z)
@@ -112,7 +118,7 @@ void integrate(const FrameView& view, const Projector& projector, const Camera& 
         const int index = v * view.width + u;
         const float weight = view.weight[index];
         if (weight == 0) continue;
-        const float depth = depth_at(view.depth_m, pixel, 0.03f);
+        const float depth = depth_at(view.depth_m, pixel, kLargestStep_m);
         if (depth == 0) continue;
         const float off = (depth - (row.z() + x * step.z())) * view.along[index];
         if (off < -truncation_m) continue;
@@ -213,13 +219,15 @@ bool BlockVolume::gradient(const Cell& voxel, Vector3f& result) const {
     if (!read(voxel - Cell::Unit(axis), 1, low) || !read(voxel + Cell::Unit(axis), 1, high)) return false;
     result[axis] = high - low;
   }
-  return result.norm() > 0.2f * static_cast<float>(options_.voxel_m);
+  return result.norm() > kLeastGradient * static_cast<float>(options_.voxel_m);
 }
 
 void BlockVolume::block_points(std::size_t b, int least_observations, PointCloud& cloud) const {
   const Cell origin = block_of(keys_[b]) * kEdge;
   const auto voxel_m = static_cast<float>(options_.voxel_m);
-  const auto inside_band = [&](float d) { return std::abs(d) < 0.95f * static_cast<float>(options_.truncation_m); };
+  const auto inside_band = [&](float d) {
+    return std::abs(d) < kWithinBand * static_cast<float>(options_.truncation_m);
+  };
   for (int k = 0; k < kVoxels; ++k) {
     const Cell voxel = origin + Cell(k % kEdge, (k / kEdge) % kEdge, k / (kEdge * kEdge));
     const float here = blocks_[b].distance[k];

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
+
+#include "scenes/disjoint_sets.h"
 
 namespace dressform {
 namespace {
@@ -20,22 +21,17 @@ Cell cell_of(const Vector3d& p, double edge_m) {
 // Component of every cell (sorted, unique): cells that touch, corners included, are one. A label is the index of the
 // component's first cell.
 std::vector<int> cell_components(const std::vector<Cell>& cells) {
-  std::vector<int> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (int k = 0; k < 13; ++k) {  // half of the 26 neighbours
       const Cell near{cells[i][0] + k / 9 - 1, cells[i][1] + k / 3 % 3 - 1, cells[i][2] + k % 3 - 1};
       const auto found = std::lower_bound(cells.begin(), cells.end(), near);
       if (found == cells.end() || *found != near) continue;
-      const int a = root(static_cast<int>(i)), b = root(static_cast<int>(found - cells.begin()));
-      parent[std::max(a, b)] = std::min(a, b);
+      sets.join(static_cast<int>(i), static_cast<int>(found - cells.begin()));
     }
-  for (std::size_t i = 0; i < cells.size(); ++i) parent[i] = root(static_cast<int>(i));
-  return parent;
+  std::vector<int> labels(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) labels[i] = sets.root(static_cast<int>(i));
+  return labels;
 }
 
 PointCloud subset(const PointCloud& cloud, const std::vector<int>& kept) {
@@ -50,7 +46,7 @@ PointCloud subset(const PointCloud& cloud, const std::vector<int>& kept) {
 }  // namespace
 
 PointCloud body_points(const PointCloud& cloud, double axis_x, double axis_z, const BodyPointsOptions& options) {
-  constexpr double kNearAxis = 0.4;
+  constexpr double kNearAxis = 0.4;  // metres: the body is the thing with most points so near
   std::vector<int> above;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     if (cloud.points[i].y() > options.floor_cut_m) above.push_back(static_cast<int>(i));
@@ -74,7 +70,9 @@ PointCloud body_points(const PointCloud& cloud, double axis_x, double axis_z, co
 }
 
 PointCloud sole_points(const PointCloud& body, double spacing_m) {
-  constexpr double kHighest = 0.035, kMargin = 0.05;
+  constexpr double kHighest = 0.035;  // metres above the floor: a foot is widest there, and its sole right below
+  constexpr double kMargin = 0.05;    // of the plan about the feet
+  constexpr double kGap = 0.012;      // between points of one sole: less than between two feet
   std::vector<cv::Point2d> low;
   for (const auto& p : body.points)
     if (p.y() < kHighest) low.emplace_back(p.x(), p.z());
@@ -91,7 +89,7 @@ PointCloud sole_points(const PointCloud& body, double spacing_m) {
   for (const auto& p : low)
     plan.at<std::uint8_t>(static_cast<int>((p.y - first.y) / spacing_m),
                           static_cast<int>((p.x - first.x) / spacing_m)) = 255;
-  const int reach = std::max(1, static_cast<int>(std::lround(0.012 / spacing_m)));
+  const int reach = std::max(1, static_cast<int>(std::lround(kGap / spacing_m)));
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
   cv::morphologyEx(plan, plan, cv::MORPH_CLOSE, disc);
   std::vector<std::vector<cv::Point>> outlines;

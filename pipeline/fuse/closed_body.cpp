@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include "pipeline/fuse/body_points.h"
 #include "pipeline/fuse/thigh_gap.h"
@@ -14,31 +13,26 @@
 #include "pipeline/geometry/mesh_cleanup.h"
 #include "pipeline/geometry/mesh_query.h"
 #include "pipeline/geometry/poisson.h"
+#include "scenes/disjoint_sets.h"
 
 namespace dressform {
 namespace {
 
-constexpr double kStep_m = 0.007;  // of the lattice on which solids are changed
+constexpr double kStep_m = 0.007;         // of the lattice on which solids are changed
+constexpr double kSoleSpacing_m = 0.005;  // of the points put under the feet: about as dense as what was measured
+constexpr double kSnap = 0.3;             // of a step: what the lattice moved less goes back to the surface
 
 Mesh largest_component(const Mesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
-    for (const int k : {1, 2}) {
-      const int a = root(t[0]), b = root(t[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (const int k : {1, 2}) sets.join(t[0], t[k]);
   std::vector<int> count(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) ++count[root(t[0])];
+  for (const auto& t : mesh.triangles) ++count[sets.root(t[0])];
   const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
   Mesh result;
   result.vertices = mesh.vertices;
   for (const auto& t : mesh.triangles)
-    if (root(t[0]) == best) result.triangles.push_back(t);
+    if (sets.root(t[0]) == best) result.triangles.push_back(t);
   return compacted(result);
 }
 
@@ -101,7 +95,7 @@ Mesh ball_like(const Mesh& mesh, const Lattice& lattice, std::vector<float> dist
   const auto field = ball_field(lattice, std::move(distances), report);
   if (field.empty()) return {};
   Mesh result = edge_collapsed(lattice_surface(lattice, field), kStep_m);
-  snap_to(MeshQuery(mesh), 0.3 * kStep_m, result);
+  snap_to(MeshQuery(mesh), kSnap * kStep_m, result);
   return result;
 }
 
@@ -116,7 +110,7 @@ Lattice lattice_round(const Mesh& mesh) {
 Mesh closed_body(const PointCloud& body, const ClosedBodyOptions& options, const ScanViews& views) {
   if (body.points.empty()) return {};
   PointCloud all = body;
-  const PointCloud soles = sole_points(body, 0.005);
+  const PointCloud soles = sole_points(body, kSoleSpacing_m);
   all.points.insert(all.points.end(), soles.points.begin(), soles.points.end());
   all.normals.insert(all.normals.end(), soles.normals.begin(), soles.normals.end());
   const Mesh surface = largest_component(poisson_surface(all, options.poisson_depth));

@@ -13,7 +13,8 @@ namespace {
 // Points of the lattice that lie behind a measured surface, up to `depth_m`: body, whatever lies there.
 std::vector<char> supported(const Lattice& lattice, const PointCloud& measured, double depth_m) {
   std::vector<char> result(lattice.count(), 0);
-  const double reach = 0.87 * lattice.step_m;  // half of a cell's diagonal: no point falls between the columns
+  constexpr double kHalfDiagonal = 0.87;  // of a cell, in steps: no point falls between the columns
+  const double reach = kHalfDiagonal * lattice.step_m;
   const auto steps = static_cast<int>(std::ceil(depth_m / lattice.step_m));
   for (std::size_t i = 0; i < measured.points.size(); ++i)
     for (int k = 0; k <= steps; ++k) {
@@ -73,7 +74,7 @@ std::vector<int> count_free_space_violations(const std::vector<Vector3d>& points
 
 Carved carved(const Lattice& lattice, std::vector<float> field, const PointCloud& measured, const ScanViews& views,
               const FreeSpaceOptions& options) {
-  constexpr int kReach = 3;
+  constexpr int kReach = 3;  // steps from a place deep inside that what is seen through beside it is taken out
   const std::vector<char> body = supported(lattice, measured, options.support_m);
   std::vector<std::size_t> asked, through;
   std::vector<Vector3d> points;

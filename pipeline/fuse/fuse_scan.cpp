@@ -8,11 +8,17 @@
 
 #include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
-constexpr Seed kFloorSeed = 20;  // of the search's draws; another seed finds the same plane
+constexpr Seed kFloorSeed = 20;                       // of the search's draws; another seed finds the same plane
+constexpr double kTilt_deg = 30, kFinerTilt_deg = 3;  // of the floor against the sensors' mean upright, then the first
+constexpr double kFinerBand_m = 0.01;                 // of the second plane's inliers
+constexpr double kLevel = 0.8;                        // cosine from which a normal points up
+constexpr double kSensorHeight_m = 1.2;               // of who walks round a body, where no floor was seen
+constexpr double kTrunkFrom = 0.5, kTrunkTo = 0.8;    // of the body's height: the trunk, without legs and head
 
 Vector3d mean_up(const Track& track) {
   Vector3d up = Vector3d::Zero();
@@ -37,26 +43,53 @@ PointCloud scattered_points(const ScanFrames& frames, const std::vector<Isometry
   return cloud;
 }
 
+// A floor is wide and lies as far below the sensors as hands hold them; shoulders, a chair or a table are not.
+bool is_floor(const Eigen::Vector4d& plane, const std::vector<Vector3d>& level, const Track& track) {
+  constexpr double kOn_m = 0.02, kWide_m = 0.25;  // standard deviation across: of a metre of floor
+  constexpr double kLowest_m = 0.3, kHighest_m = 3;
+  const Vector3d up = plane.head<3>(), side = up.unitOrthogonal(), other = up.cross(side);
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  int count = 0;
+  for (const auto& p : level) {
+    if (std::abs(up.dot(p) + plane[3]) > kOn_m) continue;
+    const Eigen::Vector2d at(side.dot(p), other.dot(p));
+    mean += at;
+    square += at * at.transpose();
+    ++count;
+  }
+  if (count == 0) return false;
+  mean /= count;
+  const Eigen::Matrix2d spread = square / count - mean * mean.transpose();
+  const double root = std::sqrt(std::max(0.0, spread.trace() * spread.trace() / 4 - spread.determinant()));
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < track.tracked.size(); ++i)
+    if (track.tracked[i]) heights.push_back(up.dot(track.world_from_frame[i].translation()) + plane[3]);
+  const double height = median(heights);
+  return std::sqrt(std::max(0.0, spread.trace() / 2 - root)) > kWide_m && height > kLowest_m && height < kHighest_m;
+}
+
 std::optional<Eigen::Vector4d> floor_plane(const ScanFrames& frames, const Track& track) {
   constexpr int kStride = 61;
   FloorSearch search;
   search.up = mean_up(track);
-  search.tilt_deg = 30;
+  search.tilt_deg = kTilt_deg;
   const PointCloud cloud = scattered_points(frames, track.world_from_frame, track.tracked, kStride);
   std::vector<Vector3d> level;  // what faces upwards
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (cloud.normals[i].dot(search.up) > 0.8) level.push_back(cloud.points[i]);
+    if (cloud.normals[i].dot(search.up) > kLevel) level.push_back(cloud.points[i]);
   auto plane = find_floor(level, search, kFloorSeed, stream_of("fuse.floor"));
   if (!plane) return plane;
   search.up = plane->head<3>();
-  search.tilt_deg = 3;
-  search.tolerance_m = 0.01;
+  search.tilt_deg = kFinerTilt_deg;
+  search.tolerance_m = kFinerBand_m;
   if (const auto finer = find_floor(level, search, kFloorSeed, stream_of("fuse.floor.finer"))) plane = finer;
+  if (!is_floor(*plane, level, track)) return {};
   return plane;
 }
 
 // y up, floor y = 0, the given point above the origin. Without a floor: the sensors' mean upright, and the lowest point
-// is unknown, so that y = 0 is set 1.2 m below the sensors.
+// is unknown, so that y = 0 is set below the sensors by their usual height.
 Isometry3d model_from_world(const Track& track, const std::optional<Eigen::Vector4d>& floor) {
   const Vector3d up = floor ? Vector3d(floor->head<3>()) : mean_up(track), axis = axes_crossing(track);
   Isometry3d model = Isometry3d::Identity();
@@ -68,7 +101,7 @@ Isometry3d model_from_world(const Track& track, const std::optional<Eigen::Vecto
     int count = 0;
     for (std::size_t i = 0; i < track.tracked.size(); ++i)
       if (track.tracked[i]) height += up.dot(axis - track.world_from_frame[i].translation()), ++count;
-    height = height / std::max(1, count) + 1.2;
+    height = height / std::max(1, count) + kSensorHeight_m;
   }
   model.translation() = Vector3d(0, height, 0) - model.linear() * axis;
   return model;
@@ -77,7 +110,9 @@ Isometry3d model_from_world(const Track& track, const std::optional<Eigen::Vecto
 // Mean of points and normals in every cell of a regular grid, in the order of the cells: fine ones near the axis,
 // coarse ones beyond.
 PointCloud thinned(const PointCloud& cloud) {
-  constexpr double kNear = 1.0, kFine = 0.012, kCoarse = 0.03;
+  constexpr double kNear = 1.0, kFine = 0.012, kCoarse = 0.03;  // metres
+  constexpr int kLeastPoints = 2;                               // in a cell: fewer are noise
+  constexpr double kLeastAgreement = 0.7;                       // length of the mean normal: less is an edge
   struct Sum {
     Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();
     int count = 0;
@@ -94,7 +129,7 @@ PointCloud thinned(const PointCloud& cloud) {
   }
   PointCloud result;
   for (const auto& [cell, sum] : cells) {
-    if (sum.count < 2 || sum.normal.norm() < 0.7 * sum.count) continue;  // edges and noise
+    if (sum.count < kLeastPoints || sum.normal.norm() < kLeastAgreement * sum.count) continue;
     result.points.push_back(sum.point / sum.count);
     result.normals.push_back(sum.normal.normalized());
   }
@@ -108,7 +143,7 @@ Vector3d trunk_axis(const PointCloud& body) {
   Vector3d sum = Vector3d::Zero();
   int count = 0;
   for (const auto& p : body.points)
-    if (p.y() > 0.5 * top && p.y() < 0.8 * top) sum += p, ++count;
+    if (p.y() > kTrunkFrom * top && p.y() < kTrunkTo * top) sum += p, ++count;
   if (count == 0) return Vector3d::Zero();
   return Vector3d(sum.x() / count, 0, sum.z() / count);
 }
@@ -122,7 +157,7 @@ void shift(BodyModel& model, const Vector3d& by) {
 }  // namespace
 
 ScanFrames checked_frames(const DepthScan& scan, const SensorCalibration& calibration, const FuseScanOptions& options) {
-  constexpr int kLeastFrames = 10;
+  constexpr int kLeastFrames = 10;  // fewer show one side of a body at best
   ScanFrames frames = prepare_frames(scan, calibration, options.samples_per_direction, options.max_depth_m);
   const auto usable = std::count(frames.usable.begin(), frames.usable.end(), 1);
   if (usable < kLeastFrames)
@@ -152,8 +187,8 @@ BodyModel fuse_tracked(const DepthScan& scan, const ScanFrames& frames, const Tr
   model.frames_used = track.count_tracked();
   model.loop_closure_m = track.loop_closure_m;
   model.residual_rms_m = track.residual_rms_m;
-  model.converged = floor.has_value() && !model.body.triangles.empty() &&
-                    model.frames_used > static_cast<int>(track.tracked.size()) / 2;
+  model.floor_seen = floor.has_value();
+  model.converged = !model.body.triangles.empty() && model.frames_used > static_cast<int>(track.tracked.size()) / 2;
   return model;
 }
 

@@ -36,7 +36,7 @@ void fuse_scan_fields(V& v, FuseScanOptions& p) {
 // Throws InputError when the scan has fewer than ten frames with enough depth or the images do not fit the calibration.
 ScanFrames checked_frames(const DepthScan& scan, const SensorCalibration& calibration, const FuseScanOptions& options);
 
-// Model frame from poses: gravity from the floor, then the volume, the body and its surroundings.
+// Model frame from poses: gravity from the floor where one was seen, then the volume, the body and its surroundings.
 BodyModel fuse_tracked(const DepthScan& scan, const ScanFrames& frames, const Track& track,
                        const SensorCalibration& calibration, const FuseScanOptions& options);
 

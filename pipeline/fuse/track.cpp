@@ -7,16 +7,27 @@
 #include <numeric>
 #include <set>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
-constexpr double kLeastInlierPart = 0.35;
+constexpr double kLeastInlierPart = 0.35;  // of the points in the targets' images: a wrong place shares the floor alone
+constexpr float kUsualDistance_m = 2;      // of who walks round a body
 constexpr int kAlignmentIterations = 6;
 constexpr double kSuspiciousCost = 1.5;  // of a frame's alignment, relative to the median before
 
+constexpr double kOrbitStep_deg = 3;   // starts round the object, where motion went on otherwise ...
+constexpr int kOrbitSteps = 4;         // ... to either side: 12 degrees, more than anybody turns between frames
+constexpr double kLoopAngle_deg = 12;  // between the lines of sight of two frames that may close the loop
+constexpr int kLoopFrames = 3;         // to either side of the early frame that the late one is aligned with
+constexpr double kNoCrossing = 5e-4;   // pull of an axis towards a point in front, where the axes hardly cross
+
+// From what a hand moves between two frames down to the sensor's noise, with ever more points.
 std::vector<CorrespondenceRejector> coarse_to_fine() {
   return {{0.2, 0.5, 4}, {0.08, 0.7, 3}, {0.04, 0.8, 2}, {0.02, 0.85, 1}};
 }
+constexpr CorrespondenceRejector kAcrossTheLoop{0.3, 0.5, 4};  // the drift of a whole walk
 
 Vector3d viewing_direction(const Isometry3d& world_from_frame) { return world_from_frame.linear().col(2); }
 
@@ -34,17 +45,7 @@ std::vector<int> recent_frames(const std::vector<int>& tracked) {
 }
 
 // Where the object in front of a sensor stands: the median depth of the middle of the image, along the axis.
-double object_distance(const DepthMap& map) {
-  std::vector<float> depths;
-  for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
-    for (int x = map.camera.width * 2 / 5; x < map.camera.width * 3 / 5; ++x) {
-      const float z = map.points[static_cast<std::size_t>(y) * map.camera.width + x].z();
-      if (z > 0) depths.push_back(z);
-    }
-  if (depths.empty()) return 2.0;
-  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
-  return depths[depths.size() / 2];
-}
+double object_distance(const DepthMap& map) { return median_or(middle_depths_m(map), kUsualDistance_m); }
 
 // The sensor moved on a circle round the object in front of it, about its own vertical.
 Isometry3d orbited(const Isometry3d& world_from_frame, double distance_m, double angle_rad) {
@@ -69,12 +70,6 @@ std::vector<Isometry3d> predictions(const Track& track, const std::vector<int>& 
   return starts;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 bool good(const FrameAlignment& alignment) { return alignment.converged && alignment.inlier_part > kLeastInlierPart; }
 
 // The best of several starts by its robust cost.
@@ -92,18 +87,18 @@ FrameAlignment best_alignment(const ScanFrames& frames, const Projector& project
   return best;
 }
 
-std::vector<Isometry3d> orbit_starts(const Isometry3d& pose, double distance_m, double step_deg, int steps) {
+std::vector<Isometry3d> orbit_starts(const Isometry3d& pose, double distance_m) {
   std::vector<Isometry3d> starts;
-  for (int k = -steps; k <= steps; ++k) starts.push_back(orbited(pose, distance_m, k * step_deg * M_PI / 180));
+  for (int k = -kOrbitSteps; k <= kOrbitSteps; ++k)
+    starts.push_back(orbited(pose, distance_m, k * kOrbitStep_deg * M_PI / 180));
   return starts;
 }
 
 // A pair of frames far apart in time that look the same way, nearest in direction; {-1, -1} without one.
 std::pair<int, int> loop_candidate(const Track& track) {
-  constexpr double kLargestAngle = 12 * M_PI / 180;
   const int count = static_cast<int>(track.world_from_frame.size());
   std::pair<int, int> best{-1, -1};
-  double best_angle = kLargestAngle;
+  double best_angle = kLoopAngle_deg * M_PI / 180;
   for (int late = count - 1; late >= 0; --late) {
     if (!track.tracked[late]) continue;
     for (int early = 0; early < late - count / 2; ++early) {
@@ -147,8 +142,8 @@ Track track_odometry(const ScanFrames& frames, const Projector& projector) {
     auto starts = predictions(track, tracked, i);
     FrameAlignment found =
         best_alignment(frames, projector, i, targets, track.world_from_frame, starts, coarse_to_fine());
-    if (!good(found) || found.cost > kSuspiciousCost * median(costs)) {
-      const auto more = orbit_starts(starts.back(), object_distance(frames.maps[i]), 3, 4);
+    if (!good(found) || found.cost > kSuspiciousCost * median_or(costs, 0.0)) {
+      const auto more = orbit_starts(starts.back(), object_distance(frames.maps[i]));
       starts.insert(starts.end(), more.begin(), more.end());
       found = best_alignment(frames, projector, i, targets, track.world_from_frame, starts, coarse_to_fine());
     }
@@ -167,12 +162,12 @@ Track close_loop(const ScanFrames& frames, const Projector& projector, Track tra
   const auto [early, late] = loop_candidate(track);
   if (early < 0) return track;
   std::vector<int> targets;
-  for (int i = std::max(0, early - 3); i <= std::min(frames.count() - 1, early + 3); ++i)
+  for (int i = std::max(0, early - kLoopFrames); i <= std::min(frames.count() - 1, early + kLoopFrames); ++i)
     if (track.tracked[i]) targets.push_back(i);
   const Isometry3d& open = track.world_from_frame[late];
-  const auto starts = orbit_starts(open, object_distance(frames.maps[late]), 3, 4);
+  const auto starts = orbit_starts(open, object_distance(frames.maps[late]));
   std::vector<CorrespondenceRejector> gates = coarse_to_fine();
-  gates.insert(gates.begin(), CorrespondenceRejector{0.3, 0.5, 4});
+  gates.insert(gates.begin(), kAcrossTheLoop);
   const FrameAlignment found = best_alignment(frames, projector, late, targets, track.world_from_frame, starts, gates);
   if (!good(found)) return track;
   track.loop_found = true;
@@ -208,16 +203,15 @@ std::vector<std::pair<int, int>> overlapping_pairs(const Track& track, int per_f
 }
 
 Vector3d axes_crossing(const Track& track) {
-  Eigen::Matrix3d matrix = 1e-3 * Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d matrix = 2 * kNoCrossing * Eigen::Matrix3d::Identity();
   Vector3d vector = Vector3d::Zero();
   for (std::size_t i = 0; i < track.world_from_frame.size(); ++i) {
     if (!track.tracked[i]) continue;
     const Vector3d axis = viewing_direction(track.world_from_frame[i]);
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-    // Half a part in a thousand towards two metres in front keeps the answer near when the axes hardly cross.
-    const Vector3d ahead = track.world_from_frame[i] * Vector3d(0, 0, 2);
-    matrix += across + 5e-4 * Eigen::Matrix3d::Identity();
-    vector += across * track.world_from_frame[i].translation() + 5e-4 * ahead;
+    const Vector3d ahead = track.world_from_frame[i] * Vector3d(0, 0, kUsualDistance_m);
+    matrix += across + kNoCrossing * Eigen::Matrix3d::Identity();
+    vector += across * track.world_from_frame[i].translation() + kNoCrossing * ahead;
   }
   return matrix.ldlt().solve(vector);
 }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/body/body_chart.h"
+#include "pipeline/geometry/sector.h"
+
 namespace dressform {
 namespace {
 
@@ -12,19 +15,16 @@ constexpr double kSleeveReach_m = 0.16;  // the widest sleeve, from the arm's ax
 
 }  // namespace
 
-std::array<double, 2> sleeve_ends(const Mesh& garment, const BodyLimbs& limbs) {
+std::array<double, 2> sleeve_ends(const Mesh& garment, const Landmarks& landmarks) {
+  const BodyChart chart(landmarks);
   std::array<double, 2> ends{0, 0};
   for (int side = 0; side < 2; ++side) {
-    const Limb* arm = limbs.arm(side);
-    if (!arm) continue;
+    if (!landmarks.arm(side)) continue;
     std::array<std::array<int, kSectors>, kBins> seen{};
-    const Vector3d u = limbs.front.cross(arm->direction).normalized(), v = arm->direction.cross(u);
     for (const auto& p : garment.vertices) {
-      const double along = arm->along(p);
-      const Vector3d out = p - arm->root - along * arm->direction;
-      if (along < 0 || along >= kBins * kBin_m || out.norm() > kSleeveReach_m) continue;
-      const double angle = std::atan2(out.dot(v), out.dot(u)) / (2 * M_PI) + 1;
-      ++seen[static_cast<int>(along / kBin_m)][static_cast<int>(angle * kSectors) % kSectors];
+      const ChartPlace place = chart.place(p, arm_part(side));
+      if (place.along_m < 0 || place.along_m >= kBins * kBin_m || place.radius_m > kSleeveReach_m) continue;
+      ++seen[static_cast<int>(place.along_m / kBin_m)][sector_of(place.angle, kSectors)];
     }
     // Near the armpit, and as far down as a sleeve is one with the trunk's cloth, it does not enclose the arm; it does
     // again further down.
@@ -35,16 +35,24 @@ std::array<double, 2> sleeve_ends(const Mesh& garment, const BodyLimbs& limbs) {
   return ends;
 }
 
-std::vector<char> exposed_arm_triangles(const Mesh& body, const BodyLimbs& limbs, const Mesh& garment,
-                                        double margin_m) {
-  const auto ends = sleeve_ends(garment, limbs);
-  std::vector<char> bare(body.triangles.size(), 0);
+GarmentLayout with_sleeve_ends(GarmentLayout layout, const Mesh& garment, const Landmarks& landmarks) {
+  if (!layout.upper()) return layout;
+  const auto ends = sleeve_ends(garment, landmarks);
+  for (int side = 0; side < 2; ++side) {
+    layout.arms[side].end_m = ends[side];
+    layout.arms[side].free_m = std::min(layout.arms[side].free_m, ends[side]);
+  }
+  return layout;
+}
+
+std::vector<char> exposed_arm_triangles(const KnownBody& body, const GarmentLayout& layout, double margin_m) {
+  const BodyChart chart(body.landmarks);
+  std::vector<char> bare(body.body.triangles.size(), 0);
   for (std::size_t i = 0; i < bare.size(); ++i) {
-    const BodyPart part = limbs.triangle_parts[i];
-    if (!is_arm(part)) continue;
-    const int side = part == BodyPart::left_arm ? 0 : 1;
-    const Limb* arm = limbs.arm(side);
-    bare[i] = arm && arm->along(body.vertices[body.triangles[i][0]]) > ends[side] + margin_m;
+    const BodyPart part = body.landmarks.triangle_parts[i];
+    if (!is_arm(part) || !body.landmarks.arm(side_of(part))) continue;
+    const Vector3d& corner = body.body.vertices[body.body.triangles[i][0]];
+    bare[i] = chart.place(corner, part).along_m > layout.arms[side_of(part)].end_m + margin_m;
   }
   return bare;
 }

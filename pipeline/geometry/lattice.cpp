@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 namespace dressform {
 namespace {
 
 using Offset = std::array<int, 3>;
+
+constexpr float kMostLayers = 16;  // taken off in search of a ball: what is thicker holds together
+// Of a step: how far from the surface points are put that change sides, and that must not be on the surface itself.
+constexpr double kMoved = 0.1, kOffSurface = 0.02;
 
 // The 14 neighbours: 1-7 of 0/1 coordinates, then their opposites.
 std::array<Offset, 14> make_neighbours() {
@@ -110,7 +113,7 @@ int fill_hollows(const Lattice& lattice, std::vector<float>& field) {
   int filled = 0;
   for (std::size_t i = 0; i < field.size(); ++i) {
     if (field[i] < 0 || reached[i]) continue;
-    field[i] = -static_cast<float>(0.1 * lattice.step_m);
+    field[i] = -static_cast<float>(kMoved * lattice.step_m);
     ++filled;
   }
   return filled;
@@ -227,7 +230,7 @@ void grow(const Lattice& lattice, const std::vector<float>& depth, std::vector<s
 std::vector<std::uint8_t> ball_of(const Lattice& lattice, const std::vector<float>& field) {
   const std::vector<float> depth = depth_below(lattice, field);
   std::vector<std::uint8_t> taken;
-  for (float least = 0; least < 16; least += 1) {
+  for (float least = 0; least < kMostLayers; least += 1) {
     taken = largest_piece(lattice, depth, least);
     if (euler(lattice, taken) != 1) continue;
     if (least > 0) grow(lattice, depth, taken);
@@ -238,82 +241,6 @@ std::vector<std::uint8_t> ball_of(const Lattice& lattice, const std::vector<floa
   grow(lattice, depth, taken);
   return taken;
 }
-
-struct SurfaceBuilder {
-  const Lattice& lattice;
-  const std::vector<float>& field;
-  std::array<std::ptrdiff_t, 14> step;
-  std::vector<std::array<int, 7>> rows;  // vertex numbers of the edges from the points of two slabs
-  Mesh mesh;
-
-  SurfaceBuilder(const Lattice& l, const std::vector<float>& f) : lattice(l), field(f), step(strides(l)) {
-    rows.assign(2 * static_cast<std::size_t>(l.size[0]) * l.size[1], empty_row());
-  }
-  static std::array<int, 7> empty_row() { return {-1, -1, -1, -1, -1, -1, -1}; }
-
-  // The crossing on the edge from point a to its neighbour b = a + offset of bits (b > a).
-  int vertex(std::size_t a, std::size_t b) {
-    if (a > b) std::swap(a, b);
-    const auto found = std::find(step.begin(), step.begin() + 7, static_cast<std::ptrdiff_t>(b - a));
-    int& number = rows[a % rows.size()][found - step.begin()];
-    if (number >= 0) return number;
-    const double fa = field[a], fb = field[b];
-    const double t = std::clamp(fa / (fa - fb), 0.02, 0.98);
-    number = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.push_back(lattice.point(a) + t * (lattice.point(b) - lattice.point(a)));
-    return number;
-  }
-
-  void add(int a, int b, int c, bool flip) { mesh.triangles.push_back(flip ? Vector3i(a, c, b) : Vector3i(a, b, c)); }
-
-  // p: four points of a tetrahedron of positive volume.
-  void tetrahedron(const std::array<std::size_t, 4>& p, bool mirrored) {
-    int in[4], out[4], inside = 0, outside = 0;
-    for (int k = 0; k < 4; ++k) (field[p[k]] < 0 ? in[inside++] : out[outside++]) = k;
-    if (inside == 0 || inside == 4) return;
-    if (inside == 1 || inside == 3) {
-      const int apex = inside == 1 ? in[0] : out[0];
-      const int* others = inside == 1 ? out : in;
-      // Seen from the apex, the other three in their order turn clockwise for an even place of the apex.
-      const bool flip = (apex % 2 == 0) != (inside == 1);
-      add(vertex(p[apex], p[others[0]]), vertex(p[apex], p[others[1]]), vertex(p[apex], p[others[2]]),
-          flip != mirrored);
-      return;
-    }
-    const int v00 = vertex(p[in[0]], p[out[0]]), v01 = vertex(p[in[0]], p[out[1]]);
-    const int v10 = vertex(p[in[1]], p[out[0]]), v11 = vertex(p[in[1]], p[out[1]]);
-    // (in0, in1, out0, out1) is an even or odd order of the four.
-    const int order[4] = {in[0], in[1], out[0], out[1]};
-    int inversions = 0;
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j) inversions += order[i] > order[j];
-    const bool flip = (inversions % 2 == 1) != mirrored;
-    add(v00, v01, v11, flip);
-    add(v00, v11, v10, flip);
-  }
-
-  void cube(int x, int y, int z) {
-    // The six ways from (0,0,0) to (1,1,1); even orders of the axes give a positive volume.
-    static constexpr int kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-    const std::size_t base = lattice.index(x, y, z);
-    bool any_in = false, any_out = false;
-    for (int i = 0; i < 8; ++i) {
-      const bool inside = field[base + (i ? step[i - 1] : 0)] < 0;
-      any_in |= inside;
-      any_out |= !inside;
-    }
-    if (!any_in || !any_out) return;
-    for (int k = 0; k < 6; ++k) {
-      int bits = 0;
-      std::array<std::size_t, 4> p{base, 0, 0, 0};
-      for (int i = 0; i < 3; ++i) {
-        bits |= 1 << kOrders[k][i];
-        p[i + 1] = base + step[bits - 1];
-      }
-      tetrahedron(p, k >= 3);
-    }
-  }
-};
 
 }  // namespace
 
@@ -332,7 +259,8 @@ std::vector<float> ball_field(const Lattice& lattice, std::vector<float> field, 
   if (std::none_of(field.begin(), field.end(), [](float f) { return f < 0; })) return {};
   report.filled_points = fill_hollows(lattice, field);
   const auto taken = ball_of(lattice, field);
-  const float least = static_cast<float>(0.02 * lattice.step_m), cut = static_cast<float>(0.1 * lattice.step_m);
+  const float least = static_cast<float>(kOffSurface * lattice.step_m),
+              cut = static_cast<float>(kMoved * lattice.step_m);
   for (std::size_t i = 0; i < field.size(); ++i) {
     if (taken[i]) {
       field[i] = std::min(field[i], -least);
@@ -345,18 +273,6 @@ std::vector<float> ball_field(const Lattice& lattice, std::vector<float> field, 
     }
   }
   return field;
-}
-
-Mesh lattice_surface(const Lattice& lattice, const std::vector<float>& field) {
-  SurfaceBuilder builder(lattice, field);
-  const std::size_t slab = static_cast<std::size_t>(lattice.size[0]) * lattice.size[1];
-  for (int z = 0; z + 1 < lattice.size[2]; ++z) {
-    // The numbers of slab z + 1 replace those of slab z - 1.
-    std::fill_n(builder.rows.begin() + ((z + 1) % 2) * slab, slab, SurfaceBuilder::empty_row());
-    for (int y = 0; y + 1 < lattice.size[1]; ++y)
-      for (int x = 0; x + 1 < lattice.size[0]; ++x) builder.cube(x, y, z);
-  }
-  return std::move(builder.mesh);
 }
 
 }  // namespace dressform

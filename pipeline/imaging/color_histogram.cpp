@@ -7,6 +7,9 @@ namespace dressform {
 namespace {
 
 constexpr int kBins = 32, kShift = 3;
+// Of the smoothing: window, and sigmas of what a pixel's noise moves it in Lab and of the lens's blur.
+constexpr int kSmoothed_px = 5;
+constexpr double kSmoothed_levels = 18, kSmoothedReach_px = 1.5;
 
 std::size_t cell(int a, int b, int c) { return (static_cast<std::size_t>(a) * kBins + b) * kBins + c; }
 
@@ -26,7 +29,7 @@ void smooth_along(std::vector<float>& cells, std::size_t stride) {
 cv::Mat smoothed_lab(const cv::Mat& bgr) {
   cv::Mat lab, smooth;
   cv::cvtColor(bgr, lab, cv::COLOR_BGR2Lab);
-  cv::bilateralFilter(lab, smooth, 5, 18, 1.5);
+  cv::bilateralFilter(lab, smooth, kSmoothed_px, kSmoothed_levels, kSmoothedReach_px);
   return smooth;
 }
 

@@ -55,7 +55,8 @@ std::vector<Corner> corners_of(const cv::Mat& depth_mm, const SensorCalibration&
       const auto& point = points.at<cv::Vec3f>(y, x);
       if (std::isnan(point[2])) continue;
       const Vector3d in_color = sensor.color_from_ir * Vector3d(point[0], point[1], point[2]);
-      if (in_color.z() <= 0.05) continue;
+      constexpr double kInFront_m = 0.05;
+      if (in_color.z() <= kInFront_m) continue;
       const Vector2d pixel = sensor.color->project(in_color);
       corner.u = static_cast<float>(pixel.x());
       corner.v = static_cast<float>(pixel.y());

@@ -18,7 +18,8 @@ double usable_radius_squared(const Camera& camera) {
   for (const double u : {-0.5, camera.width - 0.5})
     for (const double v : {-0.5, camera.height - 0.5})
       corner = std::max(corner, camera.normalized({u, v}).squaredNorm());
-  const double limit = 1.2 * corner;
+  constexpr double kBeyondCorner = 1.2;  // of the squared radius: nothing farther out falls into the image
+  const double limit = kBeyondCorner * corner;
   const auto& d = camera.distortion;
   constexpr int kSteps = 200;
   for (int i = 1; i <= kSteps; ++i) {
@@ -28,6 +29,8 @@ double usable_radius_squared(const Camera& camera) {
   return limit;
 }
 
+constexpr double kEdgeSigmas = 4;  // of noise between two pixels of one surface
+
 struct Edges {
   double step_per_depth;  // largest step between neighbours of one surface, per metre of depth
 
@@ -35,7 +38,7 @@ struct Edges {
       : step_per_depth(std::tan(edge_angle_deg * M_PI / 180) / std::min(camera.fx, camera.fy)) {}
   bool between(float a, float b, double distance_px) const {
     const double near = std::min(a, b);
-    return std::abs(a - b) > distance_px * step_per_depth * near + 4 * axial_noise_m(near, 1);
+    return std::abs(a - b) > distance_px * step_per_depth * near + kEdgeSigmas * axial_noise_m(near, 1);
   }
 };
 
@@ -66,7 +69,8 @@ bool beside_edge(const cv::Mat& depth_m, int x, int y, const Edges& edges) {
       else if (edges.between(z, other, dx != 0 && dy != 0 ? M_SQRT2 : 1.0))
         return true;
     }
-  return empty >= 3;
+  constexpr int kMostEmpty = 2;  // of the eight neighbours: holes of single pixels are no edge
+  return empty > kMostEmpty;
 }
 
 // Mean over shrink x shrink pixels that hold one surface, else 0.
@@ -189,6 +193,16 @@ DepthMap make_depth_map(const cv::Mat& depth_m, const Camera& camera, const cv::
       ++map.valid;
     }
   return map;
+}
+
+std::vector<float> middle_depths_m(const DepthMap& map) {
+  std::vector<float> depths;
+  for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
+    for (int x = map.camera.width * 2 / 5; x < map.camera.width * 3 / 5; ++x) {
+      const float z = map.points[static_cast<std::size_t>(y) * map.camera.width + x].z();
+      if (z > 0) depths.push_back(z);
+    }
+  return depths;
 }
 
 DepthMap make_depth_map(const cv::Mat& depth_mm, const SensorCalibration& calibration, const DepthMapOptions& options) {

@@ -49,6 +49,9 @@ struct DepthMap {
   bool has_normal(int index) const { return sigma_m[index] > 0; }
 };
 
+// The depths of all points in the middle of the image, metres: where the thing is that the sensor was pointed at.
+std::vector<float> middle_depths_m(const DepthMap& map);
+
 // Depth in metres (CV_32F, 0 = none) with the sensor's offset taken off, without flying pixels and edge pixels.
 cv::Mat clean_depth(const cv::Mat& depth_mm, const SensorCalibration& calibration, const DepthMapOptions& options);
 

@@ -3,24 +3,30 @@
 #include <tbb/parallel_for.h>
 
 #include "pipeline/multipath/bounce_pixels.h"
+#include "scenes/devices/device.h"
 
 namespace dressform {
 namespace {
 
-bool by_time_of_flight(const SensorCalibration& sensor) { return sensor.model == "kinect_v2"; }
+bool by_time_of_flight(const SensorCalibration& sensor) {
+  const SensorDevice* device = find_device(sensor.model);
+  return device && device->time_of_flight;
+}
 
 void correct_shots(std::map<std::string, Shot>& shots, const SensorOptics& optics, const Multipath& multipath) {
   std::vector<std::pair<Shot*, const DepthOptics*>> each;
   for (auto& [sensor, shot] : shots) {
     const auto own = optics.find(sensor);
-    if (own != optics.end() && !shot.depth_mm.empty() && !shot.ir.empty()) each.emplace_back(&shot, &own->second);
+    if (own != optics.end() && !shot.depth_mm.empty()) each.emplace_back(&shot, &own->second);
   }
   tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
     const auto& [shot, own] = each[i];
+    const bool lit = multipath.infrared_scaled && !shot->ir.empty();
     const SurfaceCells cells = surface_cells(shot->depth_mm, shot->ir, *own);
-    const BouncedLight light = bounced_light(cells, albedo_of(cells, multipath.signal_counts));
-    shot->depth_mm =
-        without_bounce(shot->depth_mm, cells, light, {shot->ir, multipath.signal_counts}, *own, multipath.shots.factor);
+    const BouncedLight light =
+        bounced_light(cells, lit ? albedo_of(cells, multipath.signal_counts) : assumed_albedo(cells, multipath));
+    const PixelLight pixels = lit ? PixelLight{shot->ir, multipath.signal_counts} : PixelLight{};
+    shot->depth_mm = without_bounce(shot->depth_mm, cells, light, pixels, *own, multipath.shots.factor);
   });
 }
 

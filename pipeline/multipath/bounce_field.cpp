@@ -5,16 +5,20 @@
 #include <cmath>
 
 #include "pipeline/multipath/bounce_kernel.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
-constexpr double kEmitter = 0.045;                // right of the lens, metres
-constexpr float kOneSurface = 0.05f;              // largest step in depth within one surface, in parts of the depth
-constexpr float kOwnNormal = 5;                   // weight of a cell's own normal among its neighbours' of 1
-constexpr double kLeastCovered = 0.25;            // of a cell's pixels
-constexpr double kLargestError = 0.06;            // metres: what comes out larger is a wrong guess at the geometry
-constexpr double kMetresPerTurn = 2.0833333 / 3;  // the driver's mean over the three frequencies' cycles
+constexpr double kEmitter = 0.045;      // right of the lens, metres
+constexpr float kOneSurface = 0.05f;    // largest step in depth within one surface, in parts of the depth
+constexpr float kOwnNormal = 5;         // weight of a cell's own normal among its neighbours' of 1
+constexpr double kLeastCovered = 0.25;  // of a cell's pixels
+constexpr double kLeastSpread = 1e-4;   // of a cell's rays across, over along: pixels in one line have no slope
+constexpr double kNearest = 0.3;        // metres: no sensor measures what is nearer
+constexpr int kCellsAcross = 64, kLeastEdge_px = 4;  // of an image: every cell lights every other
+constexpr double kLargestError = 0.06;               // metres: what comes out larger is a wrong guess at the geometry
+constexpr double kMetresPerTurn = 2.0833333 / 3;     // the driver's mean over the three frequencies' cycles
 
 double from_emitter_m(double x, double y, double z) { return std::hypot(x - kEmitter, y, z); }
 
@@ -27,15 +31,17 @@ struct CellFit {
   double inverse = 0, ir = 0;
 };
 
+// Whether so many of a cell's pixels make a surface: three at the least, for a plane.
+bool enough(double pixels, const cv::Rect& cell) { return pixels >= std::max(3.0, kLeastCovered * cell.area()); }
+
 // Median depth of a cell's pixels, or 0.
-float median_depth(const cv::Mat& depth_mm, const cv::Rect& cell, std::vector<float>& buffer) {
-  buffer.clear();
+float median_depth(const cv::Mat& depth_mm, const cv::Rect& cell) {
+  std::vector<float> depths;
+  depths.reserve(cell.area());
   for (int v = cell.y; v < cell.y + cell.height; ++v)
     for (int u = cell.x; u < cell.x + cell.width; ++u)
-      if (const auto d = depth_mm.at<std::uint16_t>(v, u)) buffer.push_back(d);
-  if (buffer.size() < std::max(3.0, kLeastCovered * cell.area())) return 0;
-  std::nth_element(buffer.begin(), buffer.begin() + buffer.size() / 2, buffer.end());
-  return buffer[buffer.size() / 2];
+      if (const auto d = depth_mm.at<std::uint16_t>(v, u)) depths.push_back(d);
+  return enough(static_cast<double>(depths.size()), cell) ? median(std::move(depths)) : 0;
 }
 
 bool of_surface(int depth_mm, float median) {
@@ -80,12 +86,12 @@ void fill_cell(const CellFit& fit, const Camera& camera, int index, SurfaceCells
   const Eigen::Matrix3d spread = fit.matrix - fit.n * centre * centre.transpose();
   const Eigen::Vector3d right = fit.vector - fit.inverse * centre;
   const Eigen::Matrix2d slopes = spread.topLeftCorner<2, 2>();
-  if (slopes.determinant() <= 1e-4 * slopes(0, 0) * slopes(1, 1)) return;
+  if (slopes.determinant() <= kLeastSpread * slopes(0, 0) * slopes(1, 1)) return;
   const Eigen::Vector2d slope = slopes.inverse() * right.head<2>();
   const double inverse = fit.inverse / fit.n;
   const Eigen::Vector3d plane(slope.x(), slope.y(), inverse - slope.dot(centre.head<2>()));
   const Eigen::Vector3d normal = -plane.normalized(), point = centre / inverse;
-  if (point.z() < 0.3) return;
+  if (point.z() < kNearest) return;
   cells.x[index] = static_cast<float>(point.x());
   cells.y[index] = static_cast<float>(point.y());
   cells.z[index] = static_cast<float>(point.z());
@@ -138,21 +144,20 @@ double lit_cosine_of(const SurfaceCells& cells, int i) {
 
 SurfaceCells surface_cells(const cv::Mat& depth_mm, const cv::Mat& ir, const DepthOptics& optics) {
   SurfaceCells cells;
-  cells.edge_px = std::max(4, (depth_mm.cols + 32) / 64);
+  cells.edge_px = std::max(kLeastEdge_px, (depth_mm.cols + kCellsAcross / 2) / kCellsAcross);
   cells.columns = (depth_mm.cols + cells.edge_px - 1) / cells.edge_px;  // the last are narrower
   cells.rows = (depth_mm.rows + cells.edge_px - 1) / cells.edge_px;
   for (auto* each :
        {&cells.x, &cells.y, &cells.z, &cells.normal_x, &cells.normal_y, &cells.normal_z, &cells.solid_angle})
     each->assign(cells.count(), 0.0f);
   if (!ir.empty()) cells.ir_counts.assign(cells.count(), 0.0f);
-  std::vector<float> buffer;
   for (int i = 0; i < cells.count(); ++i) {
     const cv::Point corner(i % cells.columns * cells.edge_px, i / cells.columns * cells.edge_px);
     const cv::Rect cell = inside({corner, cv::Size(cells.edge_px, cells.edge_px)}, depth_mm.size());
-    const float median = median_depth(depth_mm, cell, buffer);
+    const float median = median_depth(depth_mm, cell);
     if (median == 0) continue;
     const CellFit fit = sums_of(depth_mm, ir, optics, cell, median);
-    if (fit.n < std::max(3.0, kLeastCovered * cell.area())) continue;
+    if (!enough(fit.n, cell)) continue;
     fill_cell(fit, optics.calibration.ir, i, cells);
     const cv::Rect own = cv::Rect(corner, cell.br());  // less than the cell's at the image's border
     cells.solid_angle[i] *= static_cast<float>(own.area()) / static_cast<float>(cell.area());

@@ -12,6 +12,9 @@ constexpr double kNormalSigma = 0.15;  // of a normal from depth, rad
 constexpr double kAlbedoSigma = 0.15;  // of a pixel's albedo about that of its surroundings, natural logarithm
 constexpr double kDarkest = 0.05;      // direct light, in parts of what a surface facing the emitter gets
 constexpr std::uint16_t kSaturated = 65535;
+constexpr double kLeastSpread = 1e-2;  // of the neighbours' rays across, over along: those in one line have no slope
+constexpr float kLeastShare = 1e-3f;   // of a cell among four: so that one is never divided by nothing
+constexpr int kNormalSteps = 256;      // in an image's width between the pixels that a normal is taken from
 
 // Mean of amplitude over light: the albedo of every cell and its neighbours of the same surface. Those that face the
 // emitter know it best. 0 where it is not known.
@@ -58,7 +61,7 @@ class Pixels {
         light_(light),
         pixels_(pixels),
         optics_(optics),
-        step_px_(std::max(1, (depth_mm.cols + 128) / 256)) {
+        step_px_(std::max(1, (depth_mm.cols + kNormalSteps / 2) / kNormalSteps)) {
     if (!pixels.ir.empty()) albedo_ = surrounding_albedo(cells, light, pixels.signal_counts);
   }
 
@@ -88,7 +91,7 @@ class Pixels {
       if (column < 0 || row < 0 || column >= cells_.columns || row >= cells_.rows) continue;
       const int i = row * cells_.columns + column;
       if (cells_.z[i] == 0 || std::abs(cells_.z[i] - z) > kOneSurface * z) continue;
-      const float weight = (1 - std::abs(x - column)) * (1 - std::abs(y - row)) + 1e-3f;
+      const float weight = (1 - std::abs(x - column)) * (1 - std::abs(y - row)) + kLeastShare;
       for (int t = 0; t < BouncedLight::terms; ++t) result.bounced[t] += weight * light_.term(t)[i];
       if (!albedo_.empty()) result.albedo += weight * albedo_[i];
       weights += weight;
@@ -116,7 +119,7 @@ class Pixels {
       matrix += step * step.transpose();
       right += (1 / other - 1 / z) * step;
     }
-    if (matrix.determinant() <= 1e-2 * matrix(0, 0) * matrix(1, 1)) return 1;
+    if (matrix.determinant() <= kLeastSpread * matrix(0, 0) * matrix(1, 1)) return 1;
     const Eigen::Vector2d slope = matrix.inverse() * right;
     const Eigen::Vector3d plane(slope.x(), slope.y(), 1 / z - slope.x() * own[0] - slope.y() * own[1]);
     return lit_cosine(x, y, z, -plane.normalized());

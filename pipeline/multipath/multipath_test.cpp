@@ -11,6 +11,7 @@
 #include "pipeline/multipath/floor_evidence.h"
 #include "pipeline/testing/multipath_images.h"
 #include "pipeline/testing/test_scene.h"
+#include "scenes/devices/device.h"
 
 namespace dressform {
 namespace {
@@ -239,6 +240,36 @@ TEST(Multipath, BouncedLightIsFoundAndTakenOff) {
   }
 }
 
+TEST(Multipath, InfraredOfAnotherScaleIsNotUsed) {
+  for (const double scale : {0.0, 1e-3, 30.0}) {  // none, 8 bits in 16, stretched to the brightest
+    Captured bent = capture(1);
+    for (auto* shots : {&bent.session.naked, &bent.session.dressed})
+      for (auto& [name, shot] : *shots) {
+        if (scale == 0)
+          shot.ir = cv::Mat();
+        else
+          shot.ir.convertTo(shot.ir, CV_16U, scale);
+      }
+    const Multipath found = estimate(bent);
+    EXPECT_EQ(found.infrared_scaled, scale == 0) << scale;
+    EXPECT_EQ(found.shots.images, 8) << scale;
+    EXPECT_GT(found.shots.measured, 0.3) << scale;
+    EXPECT_LT(found.shots.measured, 3) << scale;
+    const CaptureSession clean = without_multipath(bent.session, bent.calibration, found);
+    const cv::Mat& truth = capture(0).session.dressed.at("k1").depth_mm;
+    EXPECT_LT(rms_difference(clean.dressed.at("k1").depth_mm, truth),
+              0.8 * rms_difference(bent.session.dressed.at("k1").depth_mm, truth))
+        << scale;
+  }
+}
+
+// Floors that bend eighteen times as much as light can bend them bend for another reason.
+TEST(Multipath, MoreThanThereCanBeIsNotTakenOff) {
+  const Multipath found = estimate(capture(5));
+  EXPECT_GT(found.shots.measured, 3);
+  EXPECT_EQ(found.shots.factor, 0);
+}
+
 TEST(Multipath, StraightDepthIsLeftAlone) {
   const Multipath found = estimate(capture(0));
   EXPECT_EQ(found.shots.factor, 0);
@@ -254,6 +285,17 @@ TEST(Multipath, OtherKindsOfSensorsAreNotLookedAt) {
     EXPECT_EQ(found.shots.images, 0) << model;
     EXPECT_TRUE(found.scans.empty()) << model;
   }
+}
+
+// Devices say for themselves how they measure: nobody here knows their names.
+TEST(Multipath, EveryDeviceThatMeasuresTimeOfFlightIsLookedAt) {
+  SensorDevice device;
+  device.name = "multipath_test_tof";
+  device.time_of_flight = true;
+  static const DeviceDeclaration declaration{device};
+  const Multipath found = estimate(capture(1, device.name));
+  EXPECT_EQ(found.shots.factor, 1);
+  EXPECT_EQ(found.shots.images, 8);
 }
 
 bool same_bytes(const cv::Mat& a, const cv::Mat& b) {

@@ -1,17 +1,19 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pipeline/multipath/apply.h"
 #include "pipeline/multipath/floor_evidence.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
 struct OneBounceParams {
   double signal = 1300;
-  double least_evidence = 0.4, factor = 1;
+  double least_evidence = 0.4, most_evidence = 3, factor = 1;
   int scan_frames = 30;
 };
 
@@ -20,9 +22,16 @@ void fields(V& v, OneBounceParams& p) {
   v("signal", p.signal, 1.0, 1e6, "counts", "infrared amplitude of a white surface that faces the sensor at 1 m");
   v("least_evidence", p.least_evidence, 0.0, 10.0, "",
     "of the predicted bend of floors (1: all of it), below which nothing is corrected");
+  v("most_evidence", p.most_evidence, 1.0, 100.0, "",
+    "of the predicted bend, above which something else bends the floors and nothing is corrected");
   v("factor", p.factor, 0.0, 3.0, "", "on predicted errors");
   v("scan_frames", p.scan_frames, 3, 1000, "", "frames of a scan whose floor is looked at");
 }
+
+constexpr float kNear = 3;            // metres: the body rather than walls
+constexpr double kUneven = 0.2;       // of the predicted bend: floors have other reasons to be uneven
+constexpr double kSure = 3;           // sigmas that the evidence must be off nothing
+constexpr double kUsualAlbedo = 0.5;  // in the infrared, where no image told
 
 struct ImageEvidence {
   FloorEvidence floor;
@@ -34,26 +43,46 @@ struct ShotRef {
   const DepthOptics* optics;
 };
 
-ImageEvidence look_at_shot(const ShotRef& ref, double signal) {
+// Albedo of a shot's cells: by its infrared image where that has the model's scale, else a usual one.
+std::vector<float> shot_albedo(const SurfaceCells& cells, const Shot& shot, const Multipath& known) {
+  return known.infrared_scaled && !shot.ir.empty() ? albedo_of(cells, known.signal_counts)
+                                                   : assumed_albedo(cells, known);
+}
+
+ImageEvidence look_at_shot(const ShotRef& ref, const Multipath& known) {
   const SurfaceCells cells = surface_cells(ref.shot->depth_mm, ref.shot->ir, *ref.optics);
-  const auto albedo = albedo_of(cells, signal);
+  const auto albedo = shot_albedo(cells, *ref.shot, known);
   ImageEvidence result{floor_evidence(cells, bounce_errors_m(cells, bounced_light(cells, albedo))), {}, {}};
-  constexpr float kNear = 3;  // metres: the body rather than walls
   for (int i = 0; i < cells.count(); ++i)
     if (cells.z[i] > 0 && cells.z[i] < kNear)
       (result.floor.is_floor[i] ? result.floor_albedo : result.other_albedo).push_back(albedo[i]);
   return result;
 }
 
-double median_or(std::vector<float> values, double otherwise) {
-  if (values.empty()) return otherwise;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
+// Whether infrared counts can be what the model says: rooms and people are neither black nor all white.
+bool has_scale(const std::vector<ShotRef>& shots, double signal) {
+  constexpr float kBlack = 0.01f, kWhite = 0.99f;
+  constexpr double kMost = 0.6;  // of the cells at either end
+  std::vector<std::array<long, 3>> counts(shots.size());
+  tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
+    counts[i] = {0, 0, 0};
+    if (shots[i].shot->ir.empty()) return;
+    const SurfaceCells cells = surface_cells(shots[i].shot->depth_mm, shots[i].shot->ir, *shots[i].optics);
+    const auto albedo = albedo_of(cells, signal);
+    for (int k = 0; k < cells.count(); ++k) {
+      if (cells.z[k] == 0) continue;
+      ++counts[i][0];
+      counts[i][1] += albedo[k] < kBlack;
+      counts[i][2] += albedo[k] > kWhite;
+    }
+  });
+  double all = 0, black = 0, white = 0;
+  for (const auto& each : counts) all += each[0], black += each[1], white += each[2];
+  return black <= kMost * all && white <= kMost * all;
 }
 
-// Images count by what they know, but none for all: floors have other reasons to be uneven.
+// Images count by what they know, but none for all.
 BounceStrength pooled(const std::vector<FloorEvidence>& floors, const OneBounceParams& params) {
-  constexpr double kUneven = 0.2;
   double sum = 0, weights = 0;
   BounceStrength result;
   for (const auto& floor : floors) {
@@ -66,7 +95,8 @@ BounceStrength pooled(const std::vector<FloorEvidence>& floors, const OneBounceP
   if (result.images == 0) return result;
   result.measured = sum / weights;
   result.sigma = 1 / std::sqrt(weights);
-  if (result.measured >= params.least_evidence && result.measured > 3 * result.sigma) result.factor = params.factor;
+  const bool plausible = result.measured >= params.least_evidence && result.measured <= params.most_evidence;
+  if (plausible && result.measured > kSure * result.sigma) result.factor = params.factor;
   return result;
 }
 
@@ -74,7 +104,7 @@ std::vector<ShotRef> shots_of(const std::map<std::string, Shot>& shots, const Se
   std::vector<ShotRef> result;
   for (const auto& [sensor, shot] : shots) {
     const auto own = optics.find(sensor);
-    if (own != optics.end() && !shot.depth_mm.empty() && !shot.ir.empty()) result.push_back({&shot, &own->second});
+    if (own != optics.end() && !shot.depth_mm.empty()) result.push_back({&shot, &own->second});
   }
   return result;
 }
@@ -91,31 +121,36 @@ BounceStrength strength_of(const DepthScan& scan, const DepthOptics& optics, con
   return pooled(floors, params);
 }
 
+std::vector<ImageEvidence> look_at(const std::vector<ShotRef>& shots, const Multipath& known) {
+  std::vector<ImageEvidence> seen(shots.size());
+  tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) { seen[i] = look_at_shot(shots[i], known); });
+  return seen;
+}
+
+double median_albedo(const std::vector<ImageEvidence>& seen, std::vector<float> ImageEvidence::*albedo) {
+  std::vector<float> all;
+  for (const auto& each : seen) all.insert(all.end(), (each.*albedo).begin(), (each.*albedo).end());
+  return all.empty() ? kUsualAlbedo : median(std::move(all));
+}
+
 // One bounce between what each image itself shows. How much of it there is, the floor tells: no other sensor, no pose
-// and no model is asked, and an image whose floor is as flat as it should be is left alone.
+// and no model is asked, and an image whose floor is as flat as it should be is left alone. What a surface sends on:
+// Fuchs, "Multipath interference compensation in time-of-flight camera images", ICPR 2010.
 Multipath one_bounce(const CaptureSession& session, const Calibration& calibration, const OneBounceParams& params) {
   const SensorOptics optics = time_of_flight_optics(calibration);
-  auto shots = shots_of(session.naked, optics);
-  const std::size_t naked = shots.size();
-  const auto dressed = shots_of(session.dressed, optics);
-  shots.insert(shots.end(), dressed.begin(), dressed.end());
-  std::vector<ImageEvidence> seen(shots.size());
-  tbb::parallel_for(std::size_t{0}, shots.size(),
-                    [&](std::size_t i) { seen[i] = look_at_shot(shots[i], params.signal); });
+  const auto naked_shots = shots_of(session.naked, optics), dressed_shots = shots_of(session.dressed, optics);
   Multipath result;
   result.signal_counts = params.signal;
+  result.floor_albedo = result.other_albedo = kUsualAlbedo;
+  result.infrared_scaled = has_scale(naked_shots, params.signal) && has_scale(dressed_shots, params.signal);
+  const auto naked = look_at(naked_shots, result), dressed = look_at(dressed_shots, result);
   std::vector<FloorEvidence> floors;
-  for (const auto& each : seen) floors.push_back(each.floor);
+  for (const auto* shots : {&naked, &dressed})
+    for (const auto& each : *shots) floors.push_back(each.floor);
   result.shots = pooled(floors, params);
   // The naked shots alone: captures of other clothes on the same mannequin share its scan.
-  std::vector<float> floor_albedo, other_albedo;
-  for (std::size_t i = 0; i < naked; ++i) {
-    floor_albedo.insert(floor_albedo.end(), seen[i].floor_albedo.begin(), seen[i].floor_albedo.end());
-    other_albedo.insert(other_albedo.end(), seen[i].other_albedo.begin(), seen[i].other_albedo.end());
-  }
-  constexpr double kUsual = 0.5;
-  result.floor_albedo = median_or(std::move(floor_albedo), kUsual);
-  result.other_albedo = median_or(std::move(other_albedo), kUsual);
+  result.floor_albedo = median_albedo(naked, &ImageEvidence::floor_albedo);
+  result.other_albedo = median_albedo(naked, &ImageEvidence::other_albedo);
   for (const auto& [name, scan] : session.scans) {
     const auto own = optics.find(scan.sensor);
     if (own != optics.end()) result.scans[name] = strength_of(scan, own->second, result, params);

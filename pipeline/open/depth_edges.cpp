@@ -98,7 +98,7 @@ std::optional<double> crossing(const cv::Mat& part, int x, int y, int dx, int dy
 
 // The rim point between two neighbouring depth pixels, if the garment ends there.
 void add_sample(const DepthView& view, const Vector2d& inside, const Vector2d& edge, const MeshQuery& closed,
-                const MeshQuery& naked, const BodyLimbs& limbs, const std::vector<Opening>& openings,
+                const MeshQuery& naked, const Landmarks& limbs, const std::vector<Opening>& openings,
                 const DepthEdgeParams& params, std::map<std::string, std::vector<RimSample>>& samples) {
   const Vector3d centre = view.model_from_sensor.translation(), ray = ray_of(view, edge.x(), edge.y());
   const auto hit = closed.first_hit(centre, ray);
@@ -118,7 +118,7 @@ void add_sample(const DepthView& view, const Vector2d& inside, const Vector2d& e
 
 std::map<std::string, std::vector<RimSample>> depth_rim_samples(
     const Segmentation& segmentation, Label garment, const CaptureSession& session, const std::vector<DepthView>& views,
-    const MeshQuery& closed, const MeshQuery& naked, const BodyLimbs& limbs, const std::vector<Opening>& openings,
+    const MeshQuery& closed, const MeshQuery& naked, const Landmarks& limbs, const std::vector<Opening>& openings,
     const DepthEdgeParams& params) {
   const Label other = garment == Label::top ? Label::bottom : Label::top;
   std::map<std::string, std::vector<RimSample>> samples;

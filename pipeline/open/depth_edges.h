@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "pipeline/geometry/mesh_query.h"
+#include "pipeline/imaging/depth_view.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/rim_fit.h"
 #include "pipeline/segment/segment.h"
-#include "pipeline/surface/garment_cloud.h"
 
 namespace dressform {
 
@@ -27,7 +27,7 @@ struct DepthEdgeParams {
 // unseen. What is behind is the same sensor's naked shot, unless the mannequin moved since, as it errs alike.
 std::map<std::string, std::vector<RimSample>> depth_rim_samples(
     const Segmentation& segmentation, Label garment, const CaptureSession& session, const std::vector<DepthView>& views,
-    const MeshQuery& closed, const MeshQuery& naked, const BodyLimbs& limbs, const std::vector<Opening>& openings,
+    const MeshQuery& closed, const MeshQuery& naked, const Landmarks& limbs, const std::vector<Opening>& openings,
     const DepthEdgeParams& params);
 
 // Both kinds of samples of one rim. A mask edge is the finer one, and stays unless depth of the same view shows the end

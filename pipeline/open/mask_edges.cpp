@@ -6,6 +6,9 @@
 namespace dressform {
 namespace {
 
+constexpr double kNearest_m = 0.1;  // of the depth camera: nearer is behind or beside it
+constexpr double kJump_m = 0.05;    // between two places of one piece of cloth there is no larger step of depth
+
 // One registered colour view.
 struct ColorView {
   const DepthView* depth;
@@ -53,7 +56,7 @@ std::vector<Edge> mask_edges(const cv::Mat& labels, Label garment, const MaskEdg
 // Whether the depth camera measured something clearly nearer than the point.
 bool hidden(const DepthView& view, const Vector3d& point, double in_front_m) {
   const Vector3d p = view.sensor_from_model * point;
-  if (p.z() < 0.1) return true;
+  if (p.z() < kNearest_m) return true;
   const Vector2d pixel = view.sensor->ir.project(p);
   if (!pixel.allFinite() || !view.sensor->ir.contains(pixel)) return false;
   const float z =
@@ -79,7 +82,7 @@ std::optional<RimPoint> rim_point(const ColorView& view, const Edge& edge, const
       std::max<double>(params.outside_px, params.goes_on_m * view.depth->sensor->color->fx / hit->distance);
   const Vector3d ray_beyond = view.ray(edge.x + step * edge.dx, edge.y + step * edge.dy);
   const auto further = closed.first_hit(view.centre, ray_beyond);
-  if (!further || std::abs(further->distance - hit->distance) > 0.05) return {};
+  if (!further || std::abs(further->distance - hit->distance) > kJump_m) return {};
   const auto body = naked.first_hit(view.centre, ray), body_beyond = naked.first_hit(view.centre, ray_beyond);
   if (body && body->distance < hit->distance - params.in_front_m) return {};
   if (body_beyond && body_beyond->distance < further->distance - params.in_front_m) return {};
@@ -92,7 +95,7 @@ std::optional<RimPoint> rim_point(const ColorView& view, const Edge& edge, const
 std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& segmentation, Label garment,
                                                           std::optional<Label> over, const CaptureSession& session,
                                                           const std::vector<DepthView>& views, const MeshQuery& closed,
-                                                          const MeshQuery& naked, const BodyLimbs& limbs,
+                                                          const MeshQuery& naked, const Landmarks& limbs,
                                                           const std::vector<Opening>& openings,
                                                           const MaskEdgeParams& params) {
   std::map<std::string, std::vector<RimSample>> samples;

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "pipeline/geometry/mesh_query.h"
+#include "pipeline/imaging/depth_view.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/rim_fit.h"
 #include "pipeline/segment/segment.h"
-#include "pipeline/surface/garment_cloud.h"
 
 namespace dressform {
 
@@ -26,7 +26,7 @@ struct MaskEdgeParams {
 std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& segmentation, Label garment,
                                                           std::optional<Label> over, const CaptureSession& session,
                                                           const std::vector<DepthView>& views, const MeshQuery& closed,
-                                                          const MeshQuery& naked, const BodyLimbs& limbs,
+                                                          const MeshQuery& naked, const Landmarks& limbs,
                                                           const std::vector<Opening>& openings,
                                                           const MaskEdgeParams& params);
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/body/body_landmarks.h"
+#include "pipeline/garment/garment_layout.h"
 #include "pipeline/run/stage.h"
 #include "pipeline/segment/segment.h"
 #include "pipeline/surface/surface.h"
@@ -22,18 +24,20 @@ struct Rim {
 struct OpenGarment {
   Mesh mesh;              // open, manifold, one component; shirt 4 loops, trousers 3, skirt 2
   std::vector<Rim> rims;  // one per loop
+  GarmentLayout layout;   // refined: the sleeves end at the rims
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(mesh, rims);
+    archive(mesh, rims, layout);
   }
 };
 struct OpenGarments {
   std::map<std::string, OpenGarment> garments;  // "top", "bottom"
+  std::map<std::string, std::string> failed;    // of the closed garments that could not be opened: why not
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(garments);
+    archive(garments, failed);
   }
 };
 
@@ -41,7 +45,12 @@ struct OpenTag {
   static constexpr const char* name = "open";
   static constexpr const char* default_variant = "limb_spline";
 };
-using Open = Stage<OpenTag, OpenGarments(const CaptureSession&, const Calibration&, const BodyModel& naked,
+// The closed garments cut open at neck, cuffs, hem, waist and ankles. In: the dressed shots and labels, poses, the
+// naked body and its landmarks, closed garments with their layouts (m, model frame). Out: m, model frame; a garment
+// that does not come out as one piece with a loop for each opening is absent, and `failed` says why. Throws InputError
+// for a body without triangles. The thesis (section 3.4) picks points along the rims by hand and deletes the faces
+// beyond.
+using Open = Stage<OpenTag, OpenGarments(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                          const Registration&, const Segmentation&, const ClosedGarments&)>;
 
 }  // namespace dressform

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "pipeline/open/cut.h"
-#include "pipeline/open/depth_edges.h"
-#include "pipeline/open/rim_fit.h"
+#include "pipeline/open/openings.h"
 #include "pipeline/surface/surface.h"
 #include "pipeline/testing/dressed_figure.h"
 
@@ -77,102 +76,8 @@ TEST(Cut, ACapThatIsNotThereGivesNothing) {
   EXPECT_TRUE(cut_caps(closed, {cap_above(closed, Vector3d::UnitY(), -0.2)}).mesh.triangles.empty());
 }
 
-TEST(RimFit, SlantedRimWithOutliersAndAGap) {
-  std::vector<RimSample> samples;
-  const auto truth = [](double angle) { return 0.2 + 0.02 * std::cos(angle) + 0.01 * std::sin(2 * angle); };
-  for (int i = 0; i < 600; ++i) {
-    const double angle = -M_PI + 2 * M_PI * i / 600.0;
-    if (angle > 1.0 && angle < 1.8) continue;  // hidden
-    const auto noise = normal4(5, 1, i);
-    samples.push_back({angle, truth(angle) + 0.002 * noise[0], 1});
-    if (i % 5 == 0) samples.push_back({angle, 0.05 + 0.01 * noise[1], 1});  // edges of something else
-    if (angle < -2.9) samples.push_back({angle, 0.06, 1});
-  }
-  const RimCurve curve = fit_rim(samples, {});
-  for (double angle = -3; angle < 3.1; angle += 0.05)
-    EXPECT_NEAR(curve.at(angle), truth(angle), angle > 0.9 && angle < 1.9 ? 0.006 : 0.003) << angle;
-  EXPECT_NEAR(curve.coverage, 1 - 0.8 / (2 * M_PI), 0.06);
-  EXPECT_LT(curve.residual_rms_m, 0.004);
-}
-
-TEST(RimFit, WhatIsHiddenGoesOnAsAFlatCut) {
-  std::vector<RimSample> samples;
-  const auto truth = [](double angle) { return 0.3 + 0.015 * std::cos(angle) - 0.01 * std::sin(angle); };
-  for (int i = 0; i < 600; ++i) {
-    const double angle = -M_PI + 2 * M_PI * i / 600.0;
-    const auto noise = normal4(6, 1, i);
-    if (std::abs(angle) < 1.2 || std::abs(angle) > 2.6) samples.push_back({angle, truth(angle) + 0.002 * noise[0], 1});
-    // The outline of the limb: many samples at all places along it, next to what is hidden.
-    if (angle > 1.2 && angle < 1.5)
-      for (int k = 0; k < 20; ++k) samples.push_back({angle, 0.01 * k + 0.05, 1});
-  }
-  const FlatCut flat = fit_flat_cut(samples, 0.008);
-  EXPECT_NEAR(flat.middle, 0.3, 0.002);
-  EXPECT_NEAR(flat.tilt_cos, 0.015, 0.002);
-  EXPECT_NEAR(flat.tilt_sin, -0.01, 0.003);
-  const RimCurve curve = fit_rim(samples, {});
-  for (double angle = -3; angle < 3.1; angle += 0.05) EXPECT_NEAR(curve.at(angle), truth(angle), 0.006) << angle;
-}
-
-TEST(RimFit, DeepVNeckIsFollowed) {
-  std::vector<RimSample> samples;
-  const auto truth = [](double angle) { return -0.09 - 0.08 * std::max(0.0, 1 - std::abs(angle) / 0.7); };
-  for (int i = 0; i < 500; ++i) {
-    const double angle = -M_PI + 2 * M_PI * i / 500.0;
-    samples.push_back({angle, truth(angle) + 0.002 * normal4(7, 1, i)[0], 1});
-  }
-  const RimCurve curve = fit_rim(samples, {});
-  for (double angle = -3; angle < 3.1; angle += 0.05)
-    EXPECT_NEAR(curve.at(angle), truth(angle), std::abs(angle) < 0.1 ? 0.012 : 0.005) << angle;
-}
-
-// Where a print or a shadow draws the mask's edge into the cloth, and nothing shows the true edge.
-TEST(RimFit, StraysThatReachALittleWayRoundMakeNoDent) {
-  for (const double depth : {0.035, 0.045}) {
-    std::vector<RimSample> samples;
-    const auto truth = [](double angle) { return -0.1 + 0.02 * std::cos(angle) - 0.008 * std::cos(2 * angle); };
-    for (int i = 0; i < 500; ++i) {
-      const double angle = -M_PI + 2 * M_PI * i / 500.0, off = std::abs(angle + 1.4);
-      const double stray = off < 0.2 ? depth * (1 - off / 0.3) : 0;
-      samples.push_back({angle, truth(angle) - stray + 0.001 * normal4(8, 1, i)[0], 0.5});
-    }
-    const RimCurve curve = fit_rim(samples, {});
-    for (double angle = -3; angle < 3.1; angle += 0.05) EXPECT_NEAR(curve.at(angle), truth(angle), 0.010) << angle;
-  }
-}
-
-TEST(RimFit, DepthOfTheSameViewOverrulesMaskEdges) {
-  const std::vector<RimSample> mask{{0.00, 0.30, 1, 0}, {0.02, 0.28, 1, 0}, {0.02, 0.30, 1, 1}, {1.00, 0.30, 1, 0}};
-  const std::vector<RimSample> depth{{0.03, 0.275, 1, 0}, {0.05, 0.270, 1, 0}};
-  const auto both = reconciled(mask, depth, 0.010);
-  ASSERT_EQ(both.size(), 5u);  // the first of the mask's is gone: the third is another view's, the fourth elsewhere
-  EXPECT_EQ(both[0].along, 0.28);
-  EXPECT_EQ(both[1].view, 1);
-  EXPECT_EQ(both[2].angle, 1.00);
-}
-
-TEST(RimFit, NothingSeenIsNoCurve) {
-  EXPECT_TRUE(fit_rim({}, {}).knots.empty());
-  EXPECT_EQ(fit_rim({}, {}).coverage, 0);
-}
-
-TEST(ClosedBottomKind, IsWhatTheSurfaceIs) {
-  const BodyLimbs limbs = find_limbs(figure::body_mesh());
-  figure::Clothes clothes;
-  const auto kind = [&] {
-    const Mesh closed = figure::surface_of({-0.4, 0.1, -0.4}, {0.4, 1.15, 0.4}, 0.015,
-                                           [&](const Vector3d& p) { return figure::bottom(p, clothes); });
-    return closed_bottom_kind(closed, limbs, "unknown");
-  };
-  EXPECT_EQ(kind(), "trousers");
-  clothes.skirt = true;
-  EXPECT_EQ(kind(), "skirt");
-  clothes.ankle_y = limbs.crotch_y;
-  EXPECT_EQ(kind(), "unknown");
-}
-
 TEST(OpeningNear, ShouldersBelongToShortSleeves) {
-  const BodyLimbs limbs = find_limbs(figure::body_mesh());
+  const Landmarks limbs = find_landmarks(figure::body_mesh());
   std::vector<Opening> openings;
   for (const char* name : {"neck", "left_cuff", "right_cuff", "hem"}) openings.push_back({name});
   const auto near = [&](const Vector3d& point, BodyPart part) {
@@ -189,11 +94,11 @@ TEST(OpeningNear, ShouldersBelongToShortSleeves) {
 }
 
 OpenGarments run(const std::string& variant, const figure::Capture& c, const ClosedGarments& closed) {
-  return Open::at(variant).run(c.session, c.calibration, c.naked, c.registration, c.segmentation, closed, {}, 1);
+  return Open::at(variant).run(c.session, c.calibration, c.body, c.registration, c.segmentation, closed, {}, 1);
 }
 ClosedGarments close(const figure::Capture& c) {
   return Surface::at(SurfaceTag::default_variant)
-      .run(c.session, c.calibration, c.naked, c.registration, c.filled, {}, 1);
+      .run(c.session, c.calibration, c.body, c.registration, c.filled, c.segmentation.garments, {}, 1);
 }
 
 const Rim* rim_named(const OpenGarment& garment, const std::string& name) {
@@ -232,6 +137,21 @@ TEST_P(EveryOpening, ShirtAndTrousersHaveTheirRims) {
   }
   EXPECT_FALSE(rim_named(bottom, "waist")->observed);
   EXPECT_TRUE(rim_named(top, "hem")->observed);
+  EXPECT_TRUE(open.failed.empty());
+  EXPECT_EQ(top.layout.worn, Worn::over);
+  EXPECT_EQ(bottom.layout.worn, Worn::under);
+  const double shoulder = capture.body.landmarks.left_arm->along(figure::shoulder(1));
+  EXPECT_NEAR(top.layout.arms[0].end_m, shoulder + capture.clothes.sleeve_m, 0.05);  // bins of 40 mm
+}
+
+TEST_P(EveryOpening, WhatCannotBeOpenedSaysWhy) {
+  const figure::Capture capture = figure::capture({}, 0, 0.25);
+  ClosedGarments closed;
+  closed.garments["top"].mesh = ball(0.1);
+  closed.garments["top"].layout.kind = "shirt";
+  const OpenGarments open = run(GetParam(), capture, closed);
+  EXPECT_TRUE(open.garments.empty());
+  EXPECT_FALSE(open.failed.at("top").empty());
 }
 
 TEST_P(EveryOpening, SkirtHasTwoRims) {
@@ -239,9 +159,10 @@ TEST_P(EveryOpening, SkirtHasTwoRims) {
   clothes.skirt = true;
   clothes.ankle_y = 0.5;
   figure::Capture capture = figure::capture(clothes);
-  const ClosedGarments closed = close(capture);
   for (const char* kind : {"skirt", "trousers"}) {  // folds may pass for legs before there is a surface
-    capture.segmentation.kinds["bottom"] = kind;
+    capture.segmentation.garments["bottom"].kind = kind;
+    const ClosedGarments closed = close(capture);
+    EXPECT_EQ(closed.garments.at("bottom").layout.kind, "skirt");
     const OpenGarments open = run(GetParam(), capture, closed);
     ASSERT_TRUE(open.garments.count("bottom"));
     expect_open(open.garments.at("bottom").mesh, 2);
@@ -304,6 +225,7 @@ ClosedGarments long_legs(const figure::Clothes& clothes) {
   longer.ankle_y -= 0.05;
   ClosedGarments closed;
   ClosedGarment& bottom = closed.garments["bottom"];
+  bottom.layout.kind = "trousers";
   bottom.mesh = figure::surface_of({-0.3, 0.1, -0.25}, {0.3, 1.15, 0.25}, 0.012, [&](const Vector3d& p) {
     return std::max(figure::bottom(p, longer), std::min(0.009 - std::abs(p.x()), 0.85 - p.y()));
   });
@@ -337,7 +259,9 @@ TEST_P(EveryOpening, NothingToOpenIsNothing) {
   EXPECT_TRUE(run(GetParam(), capture, {}).garments.empty());
   ClosedGarments empty;
   empty.garments["top"] = {};
-  EXPECT_TRUE(run(GetParam(), capture, empty).garments.empty());
+  const OpenGarments none = run(GetParam(), capture, empty);
+  EXPECT_TRUE(none.garments.empty());
+  EXPECT_EQ(none.failed.at("top"), "there is no closed surface");
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, EveryOpening, ::testing::ValuesIn(Open::names()),

@@ -7,7 +7,8 @@
 namespace dressform {
 namespace {
 
-constexpr double kEndToRim_m = 0.05;   // the closed surface runs on this far beyond a rim
+constexpr double kEndToRim_m = 0.05;                     // the closed surface runs on this far beyond a rim
+constexpr double kNeckBand_m = 0.03, kRimBand_m = 0.06;  // of the closed surface's ends, whose middle is the rim's
 constexpr double kBelowNeck_m = 0.20;  // the neck's polar centre lies this far below the closed surface's end
 
 Opening cylinder(const std::string& name, const Vector3d& centre, const Vector3d& axis, const Vector3d& front) {
@@ -35,6 +36,7 @@ Vector3d middle(const Mesh& mesh, double low, double high, const Vector3d& other
 Opening of_limb(const std::string& name, const Limb& limb, BodyPart part, const Mesh& mesh,
                 const std::vector<BodyPart>& parts, const Vector3d& front) {
   Opening opening = cylinder(name, limb.root, limb.direction, front);
+  opening.limb = part;
   double end = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     if (parts[i] == part) end = std::max(end, limb.along(mesh.vertices[i]));
@@ -49,7 +51,7 @@ Opening of_limb(const std::string& name, const Limb& limb, BodyPart part, const 
 
 // Whether a point lies on a shoulder, further out than the arm's axis where it leaves the trunk: short sleeves end
 // there, although the body below counts as trunk. 0 left, 1 right, -1 neither.
-int shoulder_at(const Vector3d& point, const BodyLimbs& limbs) {
+int shoulder_at(const Vector3d& point, const Landmarks& limbs) {
   for (int side = 0; side < 2; ++side) {
     const Limb* arm = limbs.arm(side);
     if (!arm || point.y() < arm->root.y()) continue;
@@ -72,7 +74,7 @@ double Opening::angle(const Vector3d& point) const {
 }
 
 std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const std::vector<BodyPart>& parts,
-                                      const BodyLimbs& limbs) {
+                                      const Landmarks& limbs) {
   std::vector<Opening> openings;
   if (closed.vertices.empty()) return openings;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -83,7 +85,7 @@ std::vector<Opening> garment_openings(const std::string& kind, const Mesh& close
   const Vector3d up = Vector3d::UnitY();
   if (kind == "shirt" || kind == "dress") {
     if (!limbs.left_arm || !limbs.right_arm) return {};
-    Vector3d neck = middle(closed, high - 0.03, high, limbs.neck);
+    Vector3d neck = middle(closed, high - kNeckBand_m, high, limbs.neck);
     neck.y() = high - kBelowNeck_m;
     Opening opening = cylinder("neck", neck, up, limbs.front);
     opening.shape = Opening::Shape::polar;
@@ -95,7 +97,7 @@ std::vector<Opening> garment_openings(const std::string& kind, const Mesh& close
     openings.push_back(cylinder("hem", waist, -up, limbs.front));
     return openings;
   }
-  const Vector3d waist = middle(closed, high - 0.06, high, Vector3d(0, high, 0));
+  const Vector3d waist = middle(closed, high - kRimBand_m, high, Vector3d(0, high, 0));
   if (kind == "trousers") {
     if (!limbs.left_leg || !limbs.right_leg) return {};
     openings.push_back(cylinder("waist", waist, up, limbs.front));
@@ -103,33 +105,20 @@ std::vector<Opening> garment_openings(const std::string& kind, const Mesh& close
     openings.push_back(of_limb("right_ankle", *limbs.right_leg, BodyPart::right_leg, closed, parts, limbs.front));
   } else if (kind == "skirt") {
     openings.push_back(cylinder("waist", waist, up, limbs.front));
-    openings.push_back(cylinder("hem", middle(closed, low, low + 0.06, waist), -up, limbs.front));
+    openings.push_back(cylinder("hem", middle(closed, low, low + kRimBand_m, waist), -up, limbs.front));
   }
   return openings;
 }
 
-std::string closed_bottom_kind(const Mesh& closed, const BodyLimbs& limbs, const std::string& otherwise) {
-  constexpr double kFork_m = 0.03;    // legs come apart at most this far below the crotch
-  constexpr double kEnd_m = 0.08;     // a hem's folds may come apart as well
-  constexpr double kLeastPart = 0.2;  // a leg's section against the other's
-  constexpr double kAll = 0.9;        // of the levels
-  constexpr int kFewestLevels = 3;
-  const Sections sections = horizontal_sections(closed);
-  int forked = 0, whole = 0;
-  for (int i = 0; i < static_cast<int>(sections.levels.size()); ++i) {
-    const auto& loops = sections.levels[i];
-    if (loops.empty() || sections.y(i) > limbs.crotch_y - kFork_m || sections.y(i) < sections.first_y + kEnd_m)
-      continue;
-    ++(loops.size() > 1 && loops[1].area_m2 > kLeastPart * loops[0].area_m2 ? forked : whole);
-  }
-  const int levels = forked + whole;
-  if (levels < kFewestLevels) return otherwise;
-  if (forked >= kAll * levels) return "trousers";
-  return whole >= kAll * levels ? "skirt" : otherwise;
+bool belongs(const Opening& opening, BodyPart part, const Vector3d& point, const Landmarks& landmarks) {
+  if (is_arm(opening.limb) || is_arm(part)) return part == opening.limb;
+  if (!is_leg(opening.limb)) return true;
+  const double side = (point - landmarks.hips()).dot(landmarks.left);
+  return point.y() < landmarks.crotch_y && (side > 0) == (side_of(opening.limb) == 0);
 }
 
 const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,
-                            const BodyLimbs& limbs) {
+                            const Landmarks& limbs) {
   const auto named = [&](const char* name) -> const Opening* {
     for (const Opening& opening : openings)
       if (opening.name == name) return &opening;
@@ -149,19 +138,6 @@ const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d
   const Vector3d middle = limbs.left_leg && limbs.right_leg ? limbs.hips() : Vector3d::Zero();
   const double side = (point - middle).dot(limbs.left);
   return named(part == BodyPart::left_leg || (part != BodyPart::right_leg && side > 0) ? "left_ankle" : "right_ankle");
-}
-
-std::optional<Vector3d> front_from_prior(const CaptureSession& session, const Registration& registration) {
-  if (!session.prior) return {};
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& [name, model_from_sensor] : registration.model_from_sensor) {
-    const auto world_from_sensor = session.prior->world_from_sensor.find(name);
-    if (world_from_sensor == session.prior->world_from_sensor.end()) continue;
-    sum += model_from_sensor.linear() * world_from_sensor->second.linear().transpose() * Vector3d::UnitZ();
-  }
-  sum.y() = 0;
-  if (sum.norm() < 0.3) return {};
-  return Vector3d(sum.normalized());
 }
 
 }  // namespace dressform

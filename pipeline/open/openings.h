@@ -1,11 +1,9 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
-#include "pipeline/registration/registration.h"
-#include "scenes/capture_session.h"
+#include "pipeline/body/body_landmarks.h"
+#include "scenes/mesh.h"
 
 namespace dressform {
 
@@ -16,6 +14,7 @@ struct Opening {
   enum class Shape { cylinder, polar };
   std::string name;  // "neck", "left_cuff", "right_cuff", "hem", "waist", "left_ankle", "right_ankle"
   Shape shape = Shape::cylinder;
+  BodyPart limb = BodyPart::torso;  // that the opening is the end of: an arm or a leg, else the torso
   Vector3d centre = Vector3d::Zero();
   Vector3d axis = Vector3d::UnitY();  // unit, out of the garment
   Vector3d zero = Vector3d::UnitX();  // direction of angle 0, unit, across the axis
@@ -30,18 +29,14 @@ constexpr double kPolarRadius_m = 0.15;
 // ankles; "skirt": waist, hem), roughly placed by the closed mesh. Empty when the body lacks the limbs for it, and for
 // a kind that is not known. `parts`: of the body, below the vertices of the mesh.
 std::vector<Opening> garment_openings(const std::string& kind, const Mesh& closed, const std::vector<BodyPart>& parts,
-                                      const BodyLimbs& limbs);
+                                      const Landmarks& landmarks);
 
-// "trousers" where a bottom's closed surface comes apart into two legs below the crotch, "skirt" where it stays one;
-// `otherwise` where it does either or ends too soon to tell.
-std::string closed_bottom_kind(const Mesh& closed, const BodyLimbs& limbs, const std::string& otherwise);
+// Whether a point over this part of the body can be of the cloth that the opening ends.
+bool belongs(const Opening& opening, BodyPart part, const Vector3d& point, const Landmarks& landmarks);
 
 // Which opening an edge point of the garment belongs to: by the part of the body below it, and its height. Null for
 // none.
 const Opening* opening_near(const std::vector<Opening>& openings, const Vector3d& point, BodyPart part,
-                            const BodyLimbs& limbs);
-
-// The direction the body faces, from the rig prior (the world faces +z); absent without one.
-std::optional<Vector3d> front_from_prior(const CaptureSession& session, const Registration& registration);
+                            const Landmarks& limbs);
 
 }  // namespace dressform

@@ -10,6 +10,7 @@
 
 #include "pipeline/open/rim_path.h"
 #include "scenes/random.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -119,8 +120,8 @@ FlatCut refined(const std::vector<std::vector<RimSample>>& parts, const FlatCut&
 double rim_knot_angle(int knot, int count) { return -M_PI + 2 * M_PI * knot / count; }
 
 double tukey_weight(double residual, double scale) {
-  const double u = residual / (4.685 * scale);
-  return std::abs(u) < 1 ? (1 - u * u) * (1 - u * u) : 0;
+  constexpr double kConstant = 4.685;  // of the noise's sigma: 95 % efficient where all noise is normal
+  return Tukey(residual / (kConstant * scale)).weight;
 }
 
 double FlatCut::at(double angle) const { return middle + tilt_cos * std::cos(angle) + tilt_sin * std::sin(angle); }

@@ -6,11 +6,22 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
-constexpr double kHalfBody = 0.08;  // from the mean of the seen surface to the body's axis, metres
-constexpr int kRefined = 8;         // candidates of a view that are looked at closely
+constexpr double kHalfBody = 0.08;            // from the mean of the seen surface to the body's axis, metres
+constexpr double kHighest = 0.995;            // part of a mannequin's points that lie below its crown
+constexpr double kLowest = 0.01;              // part of a mannequin's points that may lie below its soles
+constexpr int kRefined = 8;                   // candidates of a view that are looked at closely
+constexpr double kSame_rad = 4 * M_PI / 180;  // candidates nearer than this have run into the same place
+constexpr double kTieBreak = 0.02;            // of a score per radian: only equals are told apart by it
+
+// From all sides at once with few points, then the best with more. The first width reaches from any of the headings to
+// the next minimum; the last leaves what the stage's own loss starts with.
+const std::vector<ModelGate> kCoarse{{0.20, 0.3, 200}, {0.08, 0.5, 300}}, kFine{{0.05, 0.6, 800}, {0.025, 0.7, 1500}};
+constexpr int kCoarseIterations = 8, kFineIterations = 12;
 
 double heading_of(const Isometry3d& upright_from_sensor) {
   const Vector3d axis = upright_from_sensor.linear().col(2);
@@ -20,7 +31,7 @@ double heading_of(const Isometry3d& upright_from_sensor) {
 double angle_between(double a, double b) { return std::abs(std::remainder(a - b, 2 * M_PI)); }
 
 // The view stood upright: y up, floor y = 0, optical axis towards +z, the mannequin's axis at x = z = 0.
-Isometry3d upright_from_sensor(const ViewPoints& view) {
+Isometry3d upright_from_sensor(const ViewPoints& view, const ModelTarget& target) {
   Vector3d up(0, -1, 0);
   if (view.floor_plane)
     up = view.floor_plane->head<3>();
@@ -34,14 +45,11 @@ Isometry3d upright_from_sensor(const ViewPoints& view) {
     const Vector3d p = upright * view.map.points[i].cast<double>();
     x.push_back(p.x()), y.push_back(p.y()), z.push_back(p.z());
   }
-  const auto part = [](std::vector<double>& values, double quantile) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(quantile * (values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  // Without a floor the lowest of the mannequin stands on it.
-  const double height = view.floor_plane ? (*view.floor_plane)[3] : -part(y, 0.01);
-  upright.translation() = Vector3d(-part(x, 0.5), height, -part(z, 0.5) - kHalfBody);
+  // Without a floor the lowest of the mannequin stands on it; where the model has none, heads are where heads are.
+  const double height = !target.has_floor() ? target.top_m() - lower_quantile(y, kHighest)
+                        : view.floor_plane  ? (*view.floor_plane)[3]
+                                            : -lower_quantile(y, kLowest);
+  upright.translation() = Vector3d(-lower_quantile(x, 0.5), height, -lower_quantile(z, 0.5) - kHalfBody);
   return upright;
 }
 
@@ -60,13 +68,12 @@ double score(const ViewPoints& view, const ModelTarget& target, const Projector&
 
 std::vector<Candidate> candidates(const ViewPoints& view, const ModelTarget& target,
                                   const InitialPoseOptions& options) {
-  const std::vector<ModelGate> coarse{{0.20, 0.3, 200}, {0.08, 0.5, 300}}, fine{{0.05, 0.6, 800}, {0.025, 0.7, 1500}};
-  const Isometry3d upright = upright_from_sensor(view);
+  const Isometry3d upright = upright_from_sensor(view, target);
   const Projector projector(view.map.camera);
   std::vector<Candidate> all(options.headings);
   tbb::parallel_for(0, options.headings, [&](int k) {
     const Isometry3d start(Eigen::AngleAxisd(2 * M_PI * k / options.headings, Vector3d::UnitY()));
-    all[k].alignment = align_to_model(view, target, start * upright, coarse, 8);
+    all[k].alignment = align_to_model(view, target, start * upright, kCoarse, kCoarseIterations);
     all[k].score = score(view, target, projector, all[k].alignment, options);
     all[k].heading = heading_of(all[k].alignment.model_from_sensor);
   });
@@ -74,13 +81,13 @@ std::vector<Candidate> candidates(const ViewPoints& view, const ModelTarget& tar
   std::vector<Candidate> distinct;
   for (const auto& each : all) {
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Candidate& other) {
-      return angle_between(each.heading, other.heading) < 4 * M_PI / 180;
+      return angle_between(each.heading, other.heading) < kSame_rad;
     });
     if (!known && each.alignment.valid && distinct.size() < kRefined) distinct.push_back(each);
   }
   tbb::parallel_for(std::size_t{0}, distinct.size(), [&](std::size_t k) {
     Candidate& each = distinct[k];
-    each.alignment = align_to_model(view, target, each.alignment.model_from_sensor, fine, 12);
+    each.alignment = align_to_model(view, target, each.alignment.model_from_sensor, kFine, kFineIterations);
     each.score = score(view, target, projector, each.alignment, options);
     each.heading = heading_of(each.alignment.model_from_sensor);
   });
@@ -95,7 +102,7 @@ const Candidate* best_near(const std::vector<Candidate>& candidates, double head
   return best;
 }
 
-const Candidate* best_of(const std::vector<Candidate>& candidates) { return best_near(candidates, 0, 10); }
+const Candidate* best_of(const std::vector<Candidate>& candidates) { return best_near(candidates, 0, 2 * M_PI); }
 
 // The heading of the world in the model frame that suits all views with a prior best.
 double common_heading(const std::vector<ViewPoints>& views, const std::vector<std::vector<Candidate>>& candidates,
@@ -111,7 +118,7 @@ double common_heading(const std::vector<ViewPoints>& views, const std::vector<st
       const double expected = heading + heading_of(*views[v].world_from_sensor);
       const Candidate* found = best_near(candidates[v], expected, reach);
       // Among equals the heading in the middle of what the views allow.
-      sum += found ? std::min(kNone, found->score + 0.02 * angle_between(found->heading, expected)) : kNone;
+      sum += found ? std::min(kNone, found->score + kTieBreak * angle_between(found->heading, expected)) : kNone;
     }
     if (sum < best_sum) best_sum = sum, best = heading;
   }

@@ -1,7 +1,9 @@
 #include "pipeline/registration/model_alignment.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "scenes/statistics.h"
 #include "scenes/triangle.h"
 
 namespace dressform {
@@ -9,7 +11,11 @@ namespace {
 
 constexpr double kModelSigma = 0.0015;  // of the model's own surface, metres
 constexpr double kFloorSigma = 0.003;   // of a floor, which is never quite flat
-constexpr int kLeastInliers = 40;
+constexpr int kLeastInliers = 40;       // for six unknowns with much to spare
+constexpr double kReach = 1.5;          // of the loss's width: nearest points farther off are not looked for
+constexpr double kLeastFloor_m = 0.02;  // width of the floor's loss: a floor is not as flat as a narrow loss
+constexpr double kStill_rad = 2e-5, kStill_m = 3e-5;  // steps that move no point of a body by a tenth of a millimetre
+constexpr double kFacing = 0.4;                       // cosine from which a part of the model faces the sensor
 
 int stride_for(std::size_t count, int most) {
   return std::max<int>(1, static_cast<int>((count + most - 1) / std::max(1, most)));
@@ -29,7 +35,11 @@ double weight_of(double tukey, double sigma_m, double other_sigma_m) {
 }  // namespace
 
 ModelTarget::ModelTarget(const BodyModel& naked)
-    : query_(std::make_unique<MeshQuery>(naked.body)), normals_(dressform::vertex_normals(naked.body)) {}
+    : query_(std::make_unique<MeshQuery>(naked.body)),
+      normals_(dressform::vertex_normals(naked.body)),
+      has_floor_(naked.floor_seen) {
+  for (const auto& vertex : naked.body.vertices) top_m_ = std::max(top_m_, vertex.y());
+}
 
 bool ModelTarget::nearest(const MeshQuery& query, const Vector3d& point, double reach_m, Contact& contact) const {
   const auto found = query.closest(point, reach_m);
@@ -55,7 +65,7 @@ ModelEquations model_equations(const ViewPoints& view, const ModelTarget& target
     ++sum.points;
     sum.cost += 1;
     ModelTarget::Contact contact;
-    if (!target.body(point, 1.5 * gate.distance_m, contact)) continue;
+    if (!target.body(point, kReach * gate.distance_m, contact)) continue;
     if (contact.normal.dot(rotation * view.map.normals[i].cast<double>()) < gate.normal_cosine) continue;
     const double residual = contact.normal.dot(point - contact.point);
     // The whole distance, not only that along the normal, says whether the two belong together.
@@ -64,18 +74,30 @@ ModelEquations model_equations(const ViewPoints& view, const ModelTarget& target
     sum.cost += tukey.loss - 1;
     add_plane(sum, point, contact.normal, residual, weight_of(tukey.weight, view.map.sigma_m[i], kModelSigma));
     sum.squared_residual_m2 += residual * residual;
+    sum.expected_squared_m2 += view.map.sigma_m[i] * view.map.sigma_m[i] + kModelSigma * kModelSigma;
     ++sum.inliers;
+  }
+  if (!target.has_floor()) {
+    sum.matrix = Matrix6d(sum.matrix.selfadjointView<Eigen::Lower>());
+    return sum;
   }
   const std::size_t floor_stride = stride_for(view.floor.size(), std::max(1, gate.most_points / 3));
   for (std::size_t k = 0; k < view.floor.size(); k += floor_stride) {
     const int i = view.floor[k];
     const Vector3d point = model_from_sensor * view.map.points[i].cast<double>();
-    const Tukey tukey(point.y() / std::max(gate.distance_m, 0.02));
+    const Tukey tukey(point.y() / std::max(gate.distance_m, kLeastFloor_m));
     if (tukey.weight == 0) continue;
     add_plane(sum, point, Vector3d::UnitY(), point.y(), weight_of(tukey.weight, view.map.sigma_m[i], kFloorSigma));
   }
   sum.matrix = Matrix6d(sum.matrix.selfadjointView<Eigen::Lower>());
   return sum;
+}
+
+void measure(const ModelEquations& sum, ViewAlignment& alignment) {
+  alignment.inliers = sum.inliers;
+  alignment.inlier_part = sum.points ? static_cast<double>(sum.inliers) / sum.points : 0;
+  alignment.residual_rms_m = sum.inliers ? std::sqrt(sum.squared_residual_m2 / sum.inliers) : 0;
+  alignment.expected_rms_m = sum.inliers ? std::sqrt(sum.expected_squared_m2 / sum.inliers) : 0;
 }
 
 ViewAlignment align_to_model(const ViewPoints& view, const ModelTarget& target, const Isometry3d& initial,
@@ -86,14 +108,12 @@ ViewAlignment align_to_model(const ViewPoints& view, const ModelTarget& target, 
     for (int iteration = 0; iteration < iterations; ++iteration) {
       const ModelEquations sum = model_equations(view, target, result.model_from_sensor, gate);
       result.cost = sum.points ? sum.cost / sum.points : 1;
-      result.inliers = sum.inliers;
-      result.inlier_part = sum.points ? static_cast<double>(sum.inliers) / sum.points : 0;
-      result.residual_rms_m = sum.inliers ? std::sqrt(sum.squared_residual_m2 / sum.inliers) : 0;
+      measure(sum, result);
       result.valid = sum.inliers >= kLeastInliers;
       if (!result.valid) return result;
       const Vector6d twist = solve_twist(sum.matrix, sum.vector);
       result.model_from_sensor = exponential(twist) * result.model_from_sensor;
-      if (twist.head<3>().norm() < 2e-5 && twist.tail<3>().norm() < 3e-5) break;
+      if (negligible(twist, kStill_rad, kStill_m)) break;
     }
   return result;
 }
@@ -107,7 +127,7 @@ double contradicted_part(const ViewPoints& view, const ModelTarget& target, cons
   int facing = 0, contradicted = 0;
   for (std::size_t k = 0; k < vertices.size(); k += stride) {
     const Vector3d point = sensor_from_model * vertices[k];
-    if ((sensor_from_model.linear() * target.vertex_normals()[k]).dot(point.normalized()) > -0.4) continue;
+    if ((sensor_from_model.linear() * target.vertex_normals()[k]).dot(point.normalized()) > -kFacing) continue;
     Vector2f pixel;
     if (!projector(point.cast<float>(), pixel)) continue;
     const int x = static_cast<int>(pixel.x() + 0.5f), y = static_cast<int>(pixel.y() + 0.5f);

@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/geometry/axes_crossing.h"
 #include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
-constexpr double kCylinder = 0.8, kAboveFloor = 0.03, kFloorBand = 0.05;
-constexpr Seed kFloorSeed = 20;  // of the search's draws; another seed finds the same plane
+constexpr double kCylinder = 0.8;     // metres about the body's axis that are body and clothes
+constexpr double kAboveFloor = 0.03;  // what is lower is floor and stand
+constexpr double kFloorBand = 0.05;   // of the floor's points, either way
+constexpr double kLevel = 0.75;       // cosine: a rough prior may be 30 degrees off, and normals 10 more
+constexpr double kOnFloor = 0.9;      // cosine of a floor point's normal once the floor is known
+constexpr Seed kFloorSeed = 20;       // of the search's draws; another seed finds the same plane
 
 std::vector<int> thinned(const std::vector<int>& all, int most) {
   if (static_cast<int>(all.size()) <= most) return all;
@@ -21,31 +27,19 @@ std::vector<int> thinned(const std::vector<int>& all, int most) {
   return result;
 }
 
-// Point nearest to the sensors' optical axes, world frame; nothing with fewer than two sensors.
-std::optional<Vector3d> axes_crossing(const RigPrior& prior) {
-  if (prior.world_from_sensor.size() < 2) return {};
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  Vector3d vector = Vector3d::Zero();
-  for (const auto& [sensor, pose] : prior.world_from_sensor) {
-    const Vector3d axis = pose.linear().col(2);
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-    matrix += across;
-    vector += across * pose.translation();
-  }
-  return matrix.ldlt().solve(vector);
+std::optional<Vector3d> meant_place(const RigPrior& prior) {
+  std::vector<Isometry3d> poses;
+  for (const auto& [sensor, pose] : prior.world_from_sensor) poses.push_back(pose);
+  return axes_crossing(poses);
 }
 
-// Where the thing in front of the sensor stands: on the optical axis, at the median depth of the image's middle.
+// Where the thing in front of the sensor stands: on the optical axis, a little behind the nearer depths of the image's
+// middle, of which the wall is a part.
 std::optional<Vector3d> middle_of_image(const DepthMap& map) {
-  std::vector<float> depths;
-  for (int y = map.camera.height / 4; y < map.camera.height * 3 / 4; ++y)
-    for (int x = map.camera.width * 2 / 5; x < map.camera.width * 3 / 5; ++x) {
-      const float z = map.points[static_cast<std::size_t>(y) * map.camera.width + x].z();
-      if (z > 0) depths.push_back(z);
-    }
+  constexpr double kHalfBody_m = 0.1;
+  const auto depths = middle_depths_m(map);
   if (depths.empty()) return {};
-  std::nth_element(depths.begin(), depths.begin() + depths.size() / 4, depths.end());
-  return Vector3d(0, 0, depths[depths.size() / 4] + 0.1);
+  return Vector3d(0, 0, nth_value(depths, depths.size() / 4) + kHalfBody_m);
 }
 
 std::optional<Eigen::Vector4d> own_floor(const DepthMap& map, const std::optional<Isometry3d>& world_from_sensor) {
@@ -54,7 +48,7 @@ std::optional<Eigen::Vector4d> own_floor(const DepthMap& map, const std::optiona
   search.tilt_deg = 30;
   std::vector<Vector3d> level;
   for (std::size_t i = 0; i < map.points.size(); i += 3)
-    if (map.has_normal(static_cast<int>(i)) && map.normals[i].cast<double>().dot(search.up) > 0.75)
+    if (map.has_normal(static_cast<int>(i)) && map.normals[i].cast<double>().dot(search.up) > kLevel)
       level.push_back(map.points[i].cast<double>());
   return find_floor(level, search, kFloorSeed, stream_of("registration.floor"));
 }
@@ -87,7 +81,7 @@ void sort_points(const Scene& scene, ViewPoints& view, int most_points) {
       is_body = height > kAboveFloor && (from_axis - up * up.dot(from_axis)).norm() < kCylinder;
     }
     const bool is_floor =
-        view.floor_plane && std::abs(height) < kFloorBand && view.map.normals[i].cast<double>().dot(up) > 0.9;
+        view.floor_plane && std::abs(height) < kFloorBand && view.map.normals[i].cast<double>().dot(up) > kOnFloor;
     (is_body ? body : is_floor ? floor : room).push_back(i);
   }
   view.body = thinned(body, most_points);
@@ -119,7 +113,7 @@ ViewPoints one_view(const Scene& scene, const Calibration& calibration, const st
 std::vector<ViewPoints> view_points(const CaptureSession& session, const Calibration& calibration,
                                     const ExtractedViews& extracted, int most_points) {
   Scene scene{extracted, session, {}};
-  if (session.prior) scene.place = axes_crossing(*session.prior);
+  if (session.prior) scene.place = meant_place(*session.prior);
   std::vector<ViewPoints> views(session.sensors.size());
   tbb::parallel_for(std::size_t{0}, views.size(),
                     [&](std::size_t i) { views[i] = one_view(scene, calibration, session.sensors[i], most_points); });

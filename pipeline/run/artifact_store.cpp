@@ -94,13 +94,6 @@ ArtifactRecord ArtifactStore::save(const Recipe& recipe, const std::string& byte
   return record;
 }
 
-std::string code_version(const std::string& stage) {
-  static const std::map<std::string, std::string> versions = {
-#include "code_versions.inc"
-  };
-  return versions.at(stage);
-}
-
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 double peak_memory_mb() {

@@ -17,9 +17,13 @@ AnyStage describe() {
 }
 
 std::vector<AnyStage> all_stages() {
-  return {describe<Calibrate>(), describe<EstimateMultipath>(), describe<Fuse>(), describe<Extract>(),
-          describe<Register>(),  describe<Segment>(),           describe<Fill>(), describe<Surface>(),
-          describe<Open>(),      describe<Texture>(),           describe<Fit>(),  describe<Correct>()};
+  return {describe<Calibrate>(), describe<EstimateMultipath>(),
+          describe<Fuse>(),      describe<Extract>(),
+          describe<Register>(),  describe<FindLandmarks>(),
+          describe<Segment>(),   describe<Fill>(),
+          describe<Surface>(),   describe<Open>(),
+          describe<Texture>(),   describe<Fit>(),
+          describe<Correct>()};
 }
 
 std::string known_stages() {

@@ -38,6 +38,30 @@ nlohmann::json read_index(const fs::path& file) {
   }
 }
 
+// A reconstruction wants the mannequin scanned, and seen with and without clothes; every listed sensor has a view.
+void check_reconstructible(const nlohmann::json& index, const std::string& file) {
+  if (!index.at("scans").contains("scan_naked"))
+    throw InputError(file + ": scans.scan_naked", "missing; expected the scan of the mannequin");
+  const auto& shots = index.at("shots");
+  for (const char* which : {"naked", "dressed"})
+    if (shots.at(which).empty())
+      throw InputError(file + ": shots." + which,
+                       std::string("found none; expected at least one sensor's shot of the mannequin ") +
+                           (*which == 'n' ? "without" : "with") + " clothes (a scan alone can only be inspected)");
+  for (const std::string sensor : index.at("sensors")) {
+    const auto has = [&](const char* which) {
+      const auto& list = shots.at(which);
+      return std::find(list.begin(), list.end(), sensor) != list.end();
+    };
+    if (!has("naked") && !has("dressed"))
+      throw InputError(file + ": sensors",
+                       "found \"" + sensor +
+                           "\", which has neither a naked nor a dressed shot; expected sensors that "
+                           "see the mannequin (take it out of `sensors`; scans name theirs "
+                           "themselves)");
+  }
+}
+
 }  // namespace
 
 SessionSource open_session(const fs::path& folder, bool check) {
@@ -46,10 +70,8 @@ SessionSource open_session(const fs::path& folder, bool check) {
   if (check) lazy.get();
   const auto index = read_index(at / "session.json");
   try {
+    check_reconstructible(index, (at / "session.json").string());
     const auto& scans = index.at("scans");
-    if (!scans.contains("scan_naked"))
-      throw InputError((at / "session.json").string() + ": scans.scan_naked",
-                       "missing; expected the scan of the mannequin");
     const std::string naked = scans.at("scan_naked").at("sensor");
     SessionSource source{lazy, scan_of(at, lazy, "scan_naked", naked), {}, index.at("sensors"), naked, {}};
     if (scans.contains("scan_user")) {

@@ -8,11 +8,13 @@
 namespace dressform {
 namespace {
 
-constexpr float kSleeveEnd = 0.7f;      // of the arm: cloth above is sleeve, below it may hang from the hips
-constexpr float kEndStrip_m = 0.03;     // of the lower end
-constexpr std::size_t kLeastSeen = 10;  // pixels of a direction, to tell where its cloth ends
-constexpr float kForeignNats = -1;      // against uniform: colours that the top does not have
-constexpr int kStrays = 50;             // one pixel of so many may lie beyond an end
+constexpr float kSleeveEnd = 0.7f;  // of the arm: cloth above is sleeve, below it may hang from the hips
+constexpr double kLowPart = 0.6;    // of what hangs below the crotch: surely bottom
+constexpr double kHand = 0.05, kBelowArmpit = 0.04;  // of the stature
+constexpr float kEndStrip_m = 0.03;                  // of the lower end
+constexpr std::size_t kLeastSeen = 10;               // pixels of a direction, to tell where its cloth ends
+constexpr float kForeignNats = -1;                   // against uniform: colours that the top does not have
+constexpr int kStrays = 50;                          // one pixel of so many may lie beyond an end
 
 // The height below which one of kStrays lies; reorders the values, of which there is one at least.
 float low_end(std::vector<float>& heights) {
@@ -23,7 +25,7 @@ float low_end(std::vector<float>& heights) {
 
 // Cloth low on the legs, whatever its length: the lower 60 % of what hangs more than a hand below the crotch.
 double sure_bottom_height(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth,
-                          const BodyLimbs& limbs) {
+                          const Landmarks& limbs) {
   std::vector<float> heights;
   for (std::size_t k = 0; k < views.size(); ++k) {
     each_cloth_pixel(views[k], cloth[k], [&](int v, int u) {
@@ -32,15 +34,15 @@ double sure_bottom_height(const std::vector<ViewEvidence>& views, const std::vec
     });
   }
   const double lowest = heights.empty() ? limbs.crotch_y : low_end(heights);
-  const double hand = 0.05 * (limbs.top_y - limbs.floor_y);
-  return std::min(limbs.crotch_y - hand, lowest + 0.6 * (limbs.crotch_y - lowest));
+  const double hand = kHand * (limbs.top_y - limbs.floor_y);
+  return std::min(limbs.crotch_y - hand, lowest + kLowPart * (limbs.crotch_y - lowest));
 }
 
 }  // namespace
 
 std::vector<cv::Mat> cloth_zones(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth,
-                                 const BodyLimbs& limbs) {
-  const double chest = limbs.armpit_y - 0.04 * (limbs.top_y - limbs.floor_y);
+                                 const Landmarks& limbs) {
+  const double chest = limbs.armpit_y - kBelowArmpit * (limbs.top_y - limbs.floor_y);
   const double low = sure_bottom_height(views, cloth, limbs);
   std::vector<cv::Mat> zones(views.size());
   for (std::size_t k = 0; k < views.size(); ++k) {
@@ -64,7 +66,7 @@ std::vector<cv::Mat> cloth_zones(const std::vector<ViewEvidence>& views, const s
 }
 
 std::vector<cv::Mat> with_lower_end(std::vector<cv::Mat> zones, const std::vector<ViewEvidence>& views,
-                                    const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs, const TrunkGrid& grid) {
+                                    const std::vector<cv::Mat>& cloth, const Landmarks& limbs, const TrunkGrid& grid) {
   for (cv::Mat& zone : zones) zone = zone.clone();
   std::vector<std::vector<float>> heights(TrunkGrid::kColumns);
   const auto each = [&](const auto& visit) {
@@ -90,7 +92,7 @@ std::vector<cv::Mat> with_lower_end(std::vector<cv::Mat> zones, const std::vecto
 }
 
 std::vector<cv::Mat> without_colors_of_top(std::vector<cv::Mat> zones, const std::vector<ViewEvidence>& views,
-                                           const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs) {
+                                           const std::vector<cv::Mat>& cloth, const Landmarks& limbs) {
   for (cv::Mat& zone : zones) zone = zone.clone();
   std::vector<cv::Mat> top(views.size());
   for (std::size_t k = 0; k < views.size(); ++k) {

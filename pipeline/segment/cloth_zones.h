@@ -21,16 +21,16 @@ void each_cloth_pixel(const ViewEvidence& view, const cv::Mat& cloth, const Visi
 
 // By view, uint8 Zone at the size of the crop: cloth on chest and upper arms is top, cloth low on the legs is bottom.
 std::vector<cv::Mat> cloth_zones(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth,
-                                 const BodyLimbs& limbs);
+                                 const Landmarks& limbs);
 
 // The same with another bottom: in every direction the lower end of the cloth on trunk and legs, for a bottom that
 // shows no more than that below the top.
 std::vector<cv::Mat> with_lower_end(std::vector<cv::Mat> zones, const std::vector<ViewEvidence>& views,
-                                    const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs, const TrunkGrid& grid);
+                                    const std::vector<cv::Mat>& cloth, const Landmarks& limbs, const TrunkGrid& grid);
 
 // The same less the bottom's pixels of colours that are seen above the waist, too.
 std::vector<cv::Mat> without_colors_of_top(std::vector<cv::Mat> zones, const std::vector<ViewEvidence>& views,
-                                           const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs);
+                                           const std::vector<cv::Mat>& cloth, const Landmarks& limbs);
 
 double zone_area_mm2(const std::vector<cv::Mat>& zones, const std::vector<ViewEvidence>& views, Zone zone);
 

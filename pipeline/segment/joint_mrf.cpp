@@ -1,9 +1,11 @@
 #include <tbb/parallel_for.h>
 
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
-#include "pipeline/segment/bottom_kind.h"
+#include "pipeline/garment/garment_ends.h"
+#include "pipeline/garment/garment_kind.h"
 #include "pipeline/segment/cloth.h"
 #include "pipeline/segment/segment.h"
 #include "pipeline/segment/top_bottom.h"
@@ -90,6 +92,13 @@ std::vector<Vector3d> places(const std::vector<ViewEvidence>& views, const std::
   return points;
 }
 
+GarmentLayout layout_of(const FoundKind& found, const std::vector<Vector3d>& points, const NakedBody& body) {
+  GarmentLayout layout;
+  layout.kind = found.kind;
+  layout.sure_kind = found.sure;
+  return with_ends(std::move(layout), points, body.query, body.limbs);
+}
+
 cv::Size color_size(const CaptureSession& session, const Calibration& calibration, const std::string& sensor) {
   const auto shot = session.dressed.find(sensor);
   if (shot != session.dressed.end() && !shot->second.color.empty()) return shot->second.color.size();
@@ -100,10 +109,11 @@ cv::Size color_size(const CaptureSession& session, const Calibration& calibratio
 
 // Skin, top and bottom in three steps, each joint over the views: evidence of offset and change against the naked
 // mannequin; cloth or skin; upper or lower garment.
-Segmentation joint_mrf(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
+Segmentation joint_mrf(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                        const ExtractedViews& extracted, const Registration& registration,
                        const JointMrfParams& params) {
-  const NakedBody body(naked.body);
+  require_known(naked, "segment.joint_mrf");
+  const NakedBody body(naked);
   const auto views = gather(session, calibration, body, extracted, registration, params.evidence);
   const auto cloth = find_cloth(views, params.cloth);
   TopBottomParams hem_boundary = params.hem_boundary;
@@ -116,9 +126,15 @@ Segmentation joint_mrf(const CaptureSession& session, const Calibration& calibra
     result.labels[sensor] =
         label_image(views[k], color_size(session, calibration, sensor), parted.top[k], parted.bottom[k]);
   }
-  if (parted.has_top)
-    result.kinds["top"] = parted.has_bottom ? "shirt" : top_kind(places(views, parted.top), body.limbs);
-  if (parted.has_bottom) result.kinds["bottom"] = bottom_kind(places(views, parted.bottom), body.limbs);
+  if (parted.has_top) {
+    const auto points = places(views, parted.top);
+    const FoundKind one = parted.has_bottom ? FoundKind{"shirt", 1} : top_kind(points, body.limbs);
+    result.garments["top"] = layout_of(one, points, body);
+  }
+  if (parted.has_bottom) {
+    const auto points = places(views, parted.bottom);
+    result.garments["bottom"] = layout_of(bottom_kind(points, body.limbs), points, body);
+  }
   return result;
 }
 

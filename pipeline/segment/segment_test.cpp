@@ -18,7 +18,7 @@ using analytic::SceneOptions;
 
 Segmentation run(const std::string& variant, const AnalyticScene& scene) {
   const auto extracted = Extract::at("cluster").run(scene.session, scene.calibration, scene.naked, {}, 1);
-  return Segment::at(variant).run(scene.session, scene.calibration, scene.naked, extracted, scene.registration, {}, 1);
+  return Segment::at(variant).run(scene.session, scene.calibration, scene.body, extracted, scene.registration, {}, 1);
 }
 
 void expect_labels(const AnalyticScene& scene, const Segmentation& found, double least, const std::string& what) {
@@ -62,11 +62,17 @@ TEST(HemCurve, StaysNearItsPlane) {
   }
 }
 
+std::map<std::string, std::string> kinds(const Segmentation& found) {
+  std::map<std::string, std::string> result;
+  for (const auto& [name, layout] : found.garments) result[name] = layout.kind;
+  return result;
+}
+
 // Every variant finds these garments, where they are.
-void expect_found(const AnalyticScene& scene, const std::map<std::string, std::string>& kinds) {
+void expect_found(const AnalyticScene& scene, const std::map<std::string, std::string>& expected) {
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, scene);
-    EXPECT_EQ(found.kinds, kinds) << variant;
+    EXPECT_EQ(kinds(found), expected) << variant;
     expect_labels(scene, found, 0.85, variant);
   }
 }
@@ -75,8 +81,17 @@ TEST(Segment, PlainClothes) {
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, plain());
     expect_labels(plain(), found, 0.85, variant);
-    EXPECT_EQ(found.kinds.at("top"), "shirt");
-    EXPECT_EQ(found.kinds.at("bottom"), "trousers");
+    const GarmentLayout &top = found.garments.at("top"), &bottom = found.garments.at("bottom");
+    EXPECT_EQ(top.kind, "shirt");
+    EXPECT_EQ(bottom.kind, "trousers");
+    EXPECT_GT(bottom.sure_kind, 0.5);
+    EXPECT_NEAR(top.bottom_y, 0.93, 0.03);
+    for (int side = 0; side < 2; ++side) {
+      EXPECT_TRUE(top.arms[side].covered && bottom.legs[side].covered);
+      const Limb& arm = *plain().body.landmarks.arm(side);
+      EXPECT_NEAR(arm.root.y() + top.arms[side].end_m * arm.direction.y(), 1.2, 0.04);  // where sleeves end
+      EXPECT_NEAR(bottom.legs[side].end_y, 0.15, 0.03);
+    }
   }
 }
 
@@ -122,7 +137,7 @@ TEST(Segment, PrintOfTheSkinsColour) {
   const auto extracted = Extract::at("cluster").run(scene.session, scene.calibration, scene.naked, {}, 1);
   const auto found = [&](const FieldValues& values) -> cv::Mat {
     return Segment::at("joint_mrf")
-               .run(scene.session, scene.calibration, scene.naked, extracted, scene.registration, values, 1)
+               .run(scene.session, scene.calibration, scene.body, extracted, scene.registration, values, 1)
                .labels.at("k1") == 2;
   };
   const cv::Mat truth = scene.labels.at("k1") == 2, yoke = truth & yoke_of(scene);
@@ -142,7 +157,7 @@ TEST(Segment, SkirtIsASkirt) {
   const auto scene = analytic::make_scene(options);
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, scene);
-    EXPECT_EQ(found.kinds.at("bottom"), "skirt");
+    EXPECT_EQ(found.garments.at("bottom").kind, "skirt");
     expect_labels(scene, found, 0.85, variant);
   }
 }
@@ -156,10 +171,10 @@ TEST(Segment, AbsentGarments) {
   const auto trousers_only = analytic::make_scene(options);
   for (const auto& variant : Segment::names()) {
     const auto a = run(variant, shirt_only);
-    EXPECT_EQ(a.kinds, (std::map<std::string, std::string>{{"top", "shirt"}}));
+    EXPECT_EQ(kinds(a), (std::map<std::string, std::string>{{"top", "shirt"}}));
     expect_labels(shirt_only, a, 0.85, variant);
     const auto b = run(variant, trousers_only);
-    EXPECT_EQ(b.kinds.count("top"), 0u);
+    EXPECT_EQ(b.garments.count("top"), 0u);
     expect_labels(trousers_only, b, 0.85, variant);
   }
 }
@@ -211,7 +226,7 @@ TEST(Segment, BottomOfWhichLittleShows) {
   const auto scene = analytic::make_scene(options);
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, scene);
-    EXPECT_EQ(found.kinds.count("bottom"), 1u);
+    EXPECT_EQ(found.garments.count("bottom"), 1u);
     for (const auto& [sensor, truth] : scene.labels) {
       const bool side = sensor == "k2" || sensor == "k4";
       EXPECT_GT(analytic::label_iou(found.labels.at(sensor), truth, 2), 0.85) << variant << sensor;
@@ -239,7 +254,7 @@ TEST(Segment, NothingToSee) {
   for (auto& [sensor, shot] : scene.session.dressed) shot.depth_mm = cv::Mat::zeros(shot.depth_mm.size(), CV_16U);
   for (const auto& variant : Segment::names()) {
     const auto found = run(variant, scene);
-    EXPECT_TRUE(found.kinds.empty());
+    EXPECT_TRUE(found.garments.empty());
     for (const auto& [sensor, labels] : found.labels) EXPECT_EQ(cv::countNonZero(labels), 0);
   }
 }

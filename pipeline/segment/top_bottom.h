@@ -27,7 +27,7 @@ struct TopBottom {
 // round the body is traced in all views together by the colours of both, and redrawn by a minimum cut in each image.
 // Where no curve parts colours that differ the cloth is one garment, unless it goes round each leg: then the curve runs
 // where the top's edge shows.
-TopBottom part_cloth(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth, const BodyLimbs& limbs,
+TopBottom part_cloth(const std::vector<ViewEvidence>& views, const std::vector<cv::Mat>& cloth, const Landmarks& limbs,
                      const TopBottomParams& params);
 
 }  // namespace dressform

@@ -7,7 +7,7 @@
 
 namespace dressform {
 
-TrunkGrid::TrunkGrid(const BodyLimbs& limbs) : axis(limbs.neck), floor_y(limbs.floor_y) {
+TrunkGrid::TrunkGrid(const Landmarks& limbs) : axis(limbs.neck), floor_y(limbs.floor_y) {
   if (limbs.left_leg && limbs.right_leg) axis = limbs.hips();
   rows = std::max(8, static_cast<int>(std::ceil((limbs.top_y - limbs.floor_y + 0.1) / kRow_m)));
 }

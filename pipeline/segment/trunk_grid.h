@@ -2,7 +2,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
 
 namespace dressform {
 
@@ -11,7 +11,7 @@ struct TrunkGrid {
   static constexpr int kColumns = 72;
   static constexpr double kRow_m = 0.005;
 
-  explicit TrunkGrid(const BodyLimbs& limbs);
+  explicit TrunkGrid(const Landmarks& limbs);
 
   int column(const cv::Vec3f& place) const;
   int row(const cv::Vec3f& place) const;

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "pipeline/body/body_chart.h"
 #include "pipeline/imaging/color_histogram.h"
 #include "pipeline/imaging/color_mapping.h"
 #include "pipeline/segment/color_change.h"
@@ -17,7 +18,9 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSameSurface_mm = 20;  // depth differences that are averaged over
 constexpr float kComparable_mm = 120;  // further apart, the two shots show different things
 constexpr int kMargin_px = 16;
-constexpr float kFarFill_px = 40;  // of a place taken from a neighbour, at 1920 x 1080
+constexpr double kLeastCosine = 0.2;           // seen at a lower one, a change of depth is no change of offset
+constexpr float kHand = 0.85f, kFoot = 0.93f;  // of the limb: beyond, clothes leave it bare
+constexpr float kFarFill_px = 40;              // of a place taken from a neighbour, at 1920 x 1080
 
 // Mean of the 5 x 5 neighbours on the same surface: about a quarter of the noise, without bias on planes.
 cv::Mat smoothed_depth(const cv::Mat& depth_mm) {
@@ -52,27 +55,10 @@ struct DepthFacts {
   cv::Mat place_m, part, limb_end, offset_mm, shift_mm;  // shift: towards the sensor since the naked shot; NaN unknown
 };
 
-double along_limb(const BodyLimbs& limbs, BodyPart part, const Vector3d& point) {
-  const auto relative = [&](const std::optional<Limb>& limb) {
-    return limb && limb->length > 0 ? std::clamp(limb->along(point) / limb->length, 0.0, 1.0) : 0.0;
-  };
-  switch (part) {
-    case BodyPart::left_arm:
-      return relative(limbs.left_arm);
-    case BodyPart::right_arm:
-      return relative(limbs.right_arm);
-    case BodyPart::left_leg:
-      return relative(limbs.left_leg);
-    case BodyPart::right_leg:
-      return relative(limbs.right_leg);
-    default:
-      return 0;
-  }
-}
-
 DepthFacts depth_facts(const cv::Mat& dressed_mm, const cv::Mat& naked_mm, const cv::Mat& naked_mask,
                        const cv::Mat& mask, const Camera& ir, const Isometry3d& model_from_sensor,
                        const NakedBody& body) {
+  const BodyChart chart(body.limbs);
   const cv::Size size = dressed_mm.size();
   DepthFacts facts{cv::Mat(size, CV_32FC3, cv::Scalar::all(kNaN)), cv::Mat(size, CV_8U, cv::Scalar(255)),
                    cv::Mat::zeros(size, CV_32F), cv::Mat(size, CV_32F, cv::Scalar(kNaN)),
@@ -89,14 +75,14 @@ DepthFacts depth_facts(const cv::Mat& dressed_mm, const cv::Mat& naked_mm, const
       if (closest.triangle < 0) continue;
       const BodyPart part = body.limbs.triangle_parts[closest.triangle];
       facts.part.at<uchar>(y, x) = static_cast<uchar>(part);
-      facts.limb_end.at<float>(y, x) = static_cast<float>(along_limb(body.limbs, part, point));
+      facts.limb_end.at<float>(y, x) = static_cast<float>(chart.part_of_limb(point, part));
       facts.offset_mm.at<float>(y, x) = static_cast<float>(1000 * body.query.signed_distance(point, closest));
       if (naked_mm.empty() || !naked_mask.at<uchar>(y, x)) continue;
       const float before = naked_mm.at<float>(y, x);
       if (!(before > 0) || std::abs(before - z) > kComparable_mm) continue;
       const Vector3d ray = (model_from_sensor.linear() * in_sensor).normalized();
       const double cosine = std::abs(ray.dot(body.query.normal(closest.triangle)));
-      facts.shift_mm.at<float>(y, x) = static_cast<float>((before - z) * std::max(0.2, cosine));
+      facts.shift_mm.at<float>(y, x) = static_cast<float>((before - z) * std::max(kLeastCosine, cosine));
     }
   }
   return facts;
@@ -107,8 +93,8 @@ ExposedSkin exposed_skin(uchar code, float limb_end) {
   if (code == 255) return ExposedSkin::none;
   const auto part = static_cast<BodyPart>(code);
   if (part == BodyPart::head) return ExposedSkin::head;
-  if (is_arm(part) && limb_end > 0.85f) return ExposedSkin::hand;
-  if (is_leg(part) && limb_end > 0.93f) return ExposedSkin::foot;
+  if (is_arm(part) && limb_end > kHand) return ExposedSkin::hand;
+  if (is_leg(part) && limb_end > kFoot) return ExposedSkin::foot;
   return ExposedSkin::none;
 }
 

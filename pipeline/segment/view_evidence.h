@@ -2,7 +2,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/geometry/mesh_query.h"
 #include "pipeline/segment/segment.h"
 
@@ -10,9 +10,9 @@ namespace dressform {
 
 // The naked model as the segmentation asks it.
 struct NakedBody {
-  explicit NakedBody(const Mesh& body) : query(body), limbs(find_limbs(body)) {}
+  explicit NakedBody(const KnownBody& known) : query(known.body), limbs(known.landmarks) {}
   MeshQuery query;
-  BodyLimbs limbs;
+  Landmarks limbs;
 };
 
 // What one dressed view says, pixel by pixel, on a crop of its colour image round the mannequin. Images have the size

@@ -1,39 +1,18 @@
 #pragma once
-#include <array>
 #include <limits>
-#include <string>
+#include <vector>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
+#include "pipeline/garment/garment_layout.h"
 #include "pipeline/geometry/mesh_query.h"
-#include "pipeline/surface/garment_cloud.h"
 
 namespace dressform {
-
-// How far a garment reaches along the body, judged by where its points are. A little beyond these ends the closed
-// surface is capped.
-struct GarmentExtent {
-  double top_y = 0, bottom_y = 0;              // neck or waist; hem or ankles
-  std::array<bool, 2> has_arm{false, false};   // left, right
-  std::array<double, 2> arm_along{0, 0};       // Limb::along of the cuffs
-  std::array<double, 2> arm_free_along{0, 0};  // and of where sleeve and trunk come apart
-  std::array<double, 2> leg_bottom_y{0, 0};    // left, right
-  bool forked = false;                         // a tube round each leg; else one round both
-};
-
-// `garment`: "top" (may have sleeves, never forked) or "bottom" (no sleeves).
-GarmentExtent garment_extent(const std::string& garment, const PointCloud& cloud, const MeshQuery& naked,
-                             const BodyLimbs& limbs);
-
-// Trousers and skirts whose upper end a top hides reach up to the body's waist, however long the top is: two legs alone
-// would be no garment.
-GarmentExtent up_to_the_waist(GarmentExtent bottom, const GarmentExtent& top, const BodyLimbs& limbs);
 
 // The part of the body that a garment goes round: the naked body without the limbs that stick out of it, and for
 // garments that are not forked a convex tube round both legs.
 class CoveredBody {
  public:
-  CoveredBody(const MeshQuery& naked, const BodyLimbs& limbs, const std::string& garment, const GarmentExtent& extent,
-              double margin_m);
+  CoveredBody(const MeshQuery& naked, const Landmarks& limbs, const GarmentLayout& layout, double margin_m);
 
   // Distance to its surface, metres, negative inside. Positive infinity if nothing is covered, or if nothing lies
   // within `bound_m`.
@@ -53,10 +32,10 @@ class CoveredBody {
 
  private:
   const MeshQuery& naked_;
-  const BodyLimbs& limbs_;
-  GarmentExtent extent_;
+  const Landmarks& limbs_;
+  GarmentLayout layout_;
   double margin_m_;
-  std::vector<bool> kept_;  // of the naked triangles
+  std::vector<char> kept_;  // of the naked triangles
   MeshQuery covered_, tube_;
   struct Fork {
     MeshQuery limb, other;

@@ -37,27 +37,27 @@ End make_end(const Vector3d& origin, const Vector3d& axis, const Vector3d& front
 
 enum EndName { left_cuff, right_cuff, upper, lower, left_lower, right_lower, kEndCount };
 
-std::array<End, kEndCount> ends_of(const GarmentExtent& extent, const BodyLimbs& limbs) {
+std::array<End, kEndCount> ends_of(const GarmentLayout& layout, const Landmarks& limbs) {
   std::array<End, kEndCount> ends;
   const Vector3d up = Vector3d::UnitY();
   for (int side = 0; side < 2; ++side) {
-    if (limbs.arm(side) && extent.has_arm[side]) {
+    if (limbs.arm(side) && layout.arms[side].covered) {
       ends[side] = make_end(limbs.arm(side)->root, limbs.arm(side)->direction, limbs.front);
-      ends[side].along = extent.arm_along[side];
+      ends[side].along = layout.arms[side].end_m;
     }
     if (limbs.leg(side)) {
       const Limb& leg = *limbs.leg(side);
-      const double down = leg.direction.y() < -0.1 ? (extent.leg_bottom_y[side] - leg.root.y()) / leg.direction.y() : 0;
+      const double down = leg.direction.y() < -0.1 ? (layout.legs[side].end_y - leg.root.y()) / leg.direction.y() : 0;
       ends[left_lower + side] = make_end(leg.root + down * leg.direction, -up, limbs.front);
     }
   }
-  ends[upper] = make_end(Vector3d(limbs.neck.x(), extent.top_y, limbs.neck.z()), up, limbs.front);
-  ends[lower] = make_end(Vector3d(limbs.neck.x(), extent.bottom_y, limbs.neck.z()), -up, limbs.front);
+  ends[upper] = make_end(Vector3d(limbs.neck.x(), layout.top_y, limbs.neck.z()), up, limbs.front);
+  ends[lower] = make_end(Vector3d(limbs.neck.x(), layout.bottom_y, limbs.neck.z()), -up, limbs.front);
   return ends;
 }
 
 // Whether a point of a sleeve lies on the side of the trunk: points there may be of either, or of what bridges them.
-bool faces_trunk(const End& cuff, int side, const Vector3d& p, const BodyLimbs& limbs) {
+bool faces_trunk(const End& cuff, int side, const Vector3d& p, const Landmarks& limbs) {
   constexpr double kFacing = 0.6;  // cosine
   Vector3d out = p - cuff.origin;
   out -= cuff.axis * cuff.axis.dot(out);
@@ -65,15 +65,13 @@ bool faces_trunk(const End& cuff, int side, const Vector3d& p, const BodyLimbs& 
 }
 
 // The end that a point may be near; kEndCount for none.
-int end_near(const Vector3d& p, const std::string& garment, const GarmentExtent& extent, const MeshQuery& naked,
-             const BodyLimbs& limbs) {
+int end_near(const Vector3d& p, const GarmentLayout& layout, const MeshQuery& naked, const Landmarks& limbs) {
   const BodyPart part = limbs.part_of(naked.closest(p).triangle);
   if (is_arm(part)) {
-    const int side = part == BodyPart::left_arm ? 0 : 1;
-    return extent.has_arm[side] ? side : kEndCount;
+    return layout.arms[side_of(part)].covered ? side_of(part) : kEndCount;
   }
-  if (garment == "bottom" && p.y() > extent.top_y - kEnds_m) return upper;
-  if (!extent.forked) return lower;
+  if (!layout.upper() && p.y() > layout.top_y - kEnds_m) return upper;
+  if (!layout.forked()) return lower;
   if (p.y() > limbs.crotch_y) return kEndCount;
   return (p - limbs.hips()).dot(limbs.left) > 0 ? left_lower : right_lower;
 }
@@ -116,14 +114,14 @@ void carry(const GarmentCloud& cloud, const End& end, const std::vector<int>& in
 
 }  // namespace
 
-GarmentCloud extrapolated(const GarmentCloud& cloud, const std::string& garment, const GarmentExtent& extent,
-                          const MeshQuery& naked, const BodyLimbs& limbs, double reach_m) {
-  const auto ends = ends_of(extent, limbs);
+GarmentCloud extrapolated(const GarmentCloud& cloud, const GarmentLayout& layout, const MeshQuery& naked,
+                          const Landmarks& limbs, double reach_m) {
+  const auto ends = ends_of(layout, limbs);
   std::array<std::vector<std::vector<int>>, kEndCount> sectors;
   for (auto& each : sectors) each.resize(kSectors);
   for (std::size_t i = 0; i < cloud.cloud.points.size(); ++i) {
     const Vector3d& p = cloud.cloud.points[i];
-    const int end = end_near(p, garment, extent, naked, limbs);
+    const int end = end_near(p, layout, naked, limbs);
     if (end == kEndCount || ends[end].along_of(p) < ends[end].along - kEnds_m - kBand_m) continue;
     if (end <= right_cuff && faces_trunk(ends[end], end, p, limbs)) continue;
     sectors[end][ends[end].sector(p)].push_back(static_cast<int>(i));

@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/fill/fill.h"
 #include "pipeline/geometry/mesh_query.h"
-#include "pipeline/registration/registration.h"
+#include "pipeline/imaging/depth_view.h"
 #include "scenes/capture_session.h"
 
 namespace dressform {
@@ -51,28 +51,12 @@ struct GarmentCloud {
   double smoothing = 1;        // by which lengths to average over are multiplied: noisy depth needs longer ones
 };
 
-// A registered view as the outlier tests and the carving see it.
-struct DepthView {
-  int index = 0;  // in CaptureSession::sensors
-  const SensorCalibration* sensor = nullptr;
-  Isometry3d model_from_sensor = Isometry3d::Identity(), sensor_from_model = Isometry3d::Identity();
-  cv::Mat depth_mm;  // float32, true depth of the dressed shot, 0 = none
-  cv::Mat rays;      // pixel_rays of the IR camera
-};
-// The registered dressed views, in the session's order.
-std::vector<DepthView> depth_views(const CaptureSession& session, const Calibration& calibration,
-                                   const Registration& registration);
-
-// How far in front of everything that the view sees around its pixel the point (model frame) lies, metres; negative
-// behind; NaN where the view has no depth for all of the 3 x 3 pixels or does not cover the point.
-double free_space_violation_m(const DepthView& view, const Vector3d& point);
-
 // Oriented, coloured, cleaned points of a garment ("top", "bottom"): depth smoothed by local plane fits; without edges
 // of the depth image, grazing surface, points that other views see through, points far from the naked body, and
 // statistical outliers. Views that are not registered are left out. May be empty. A bottom goes on where the colour
 // camera's image ends (the Kinect's depth reaches lower): into depth that joins it and stands off the naked legs.
 GarmentCloud garment_cloud(const std::string& garment, const FilledViews& filled, const std::vector<DepthView>& views,
-                           const CaptureSession& session, const MeshQuery& naked, const BodyLimbs& limbs,
+                           const CaptureSession& session, const MeshQuery& naked, const Landmarks& limbs,
                            const GarmentCloudParams& params);
 
 }  // namespace dressform

@@ -4,18 +4,27 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/garment/garment_ends.h"
+#include "pipeline/garment/garment_kind.h"
+#include "pipeline/garment/worn_order.h"
 #include "pipeline/geometry/lattice.h"
 #include "pipeline/geometry/mesh_cleanup.h"
 #include "pipeline/surface/covered_body.h"
 #include "pipeline/surface/extrapolated.h"
 #include "pipeline/surface/garment_cloud.h"
+#include "pipeline/surface/layer_space.h"
 #include "pipeline/surface/leg_hulls.h"
 #include "pipeline/surface/offset_field.h"
 #include "pipeline/surface/surface.h"
-#include "pipeline/surface/tucked.h"
 
 namespace dressform {
 namespace {
+
+constexpr double kOutside = 0.7;        // lattice steps outside: carved space pulls the surface so far under itself
+constexpr float kOnBody_m = 0.002f;     // nearer to the covered body nothing is carved
+constexpr float kCarvedWeight = 0.5f;   // of carved space, against 1 of well supported cloth
+constexpr double kSlit = 0.75;          // lattice steps, half a slit's width: no lattice point is jumped over
+constexpr double kClearance_m = 0.002;  // of a garment beneath another one from the body
 
 struct LayerParams {
   GarmentCloudParams cloud;
@@ -51,96 +60,24 @@ void fields(V& v, LayerParams& p) {
   v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");
 }
 
-// A lattice with, at each point, the distance to the covered body: exact near it, interpolated elsewhere.
-struct Space {
-  Lattice lattice;
-  std::vector<float> body_distance;
-  std::vector<std::uint8_t> domain;  // where the surface can be
-};
-
-std::vector<float> distances(const Lattice& lattice, const CoveredBody& body) {
-  std::vector<float> result(lattice.count());
-  tbb::parallel_for(0, lattice.size[2], [&](int z) {
-    for (int y = 0; y < lattice.size[1]; ++y)
-      for (int x = 0; x < lattice.size[0]; ++x)
-        result[lattice.index(x, y, z)] = static_cast<float>(body.signed_distance(lattice.point(x, y, z)));
-  });
-  return result;
-}
-
-double interpolated(const Lattice& lattice, const std::vector<float>& values, const Vector3d& point) {
-  const Vector3d at = (point - lattice.origin) / lattice.step_m;
-  int base[3];
-  double part[3];
-  for (int k = 0; k < 3; ++k) {
-    base[k] = std::clamp(static_cast<int>(std::floor(at[k])), 0, lattice.size[k] - 2);
-    part[k] = std::clamp(at[k] - base[k], 0.0, 1.0);
-  }
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double w = 1;
-    for (int k = 0; k < 3; ++k) w *= corner >> k & 1 ? part[k] : 1 - part[k];
-    sum += w * values[lattice.index(base[0] + (corner & 1), base[1] + (corner >> 1 & 1), base[2] + (corner >> 2 & 1))];
-  }
-  return sum;
-}
-
-Space make_space(const CoveredBody& body, const PointCloud& cloud, const LayerParams& params) {
-  Vector3d low = body.low(), high = body.high();
-  for (const Vector3d& p : cloud.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  Space space;
-  space.lattice = make_lattice(low, high, params.reach_m + 4 * params.step_m, params.step_m);
-  double farthest = 0;
-  for (const Vector3d& p : cloud.points) farthest = std::max(farthest, body.signed_distance(p));
-  const double limit = farthest + params.reach_m + 2 * params.step_m;
-
-  const Lattice coarse = make_lattice(low, high, params.reach_m + 8 * params.step_m, 4 * params.step_m);
-  const std::vector<float> rough = distances(coarse, body);
-  const double slack = std::sqrt(3.0) * coarse.step_m;
-  space.body_distance.resize(space.lattice.count());
-  space.domain.resize(space.lattice.count());
-  tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
-    for (int y = 0; y < space.lattice.size[1]; ++y) {
-      double bound = std::numeric_limits<double>::infinity();  // the neighbour's distance and a step
-      for (int x = 0; x < space.lattice.size[0]; ++x) {
-        const Vector3d point = space.lattice.point(x, y, z);
-        double distance = interpolated(coarse, rough, point);
-        if (distance < limit + slack && distance > -params.reach_m - slack) {
-          distance = body.signed_distance(point, bound);
-          bound = std::abs(distance) + 1.001 * params.step_m;
-        } else {
-          bound = std::numeric_limits<double>::infinity();
-        }
-        const std::size_t at = space.lattice.index(x, y, z);
-        space.body_distance[at] = static_cast<float>(distance);
-        space.domain[at] = distance < limit && distance > -params.reach_m - 2 * params.step_m;
-      }
-    }
-  });
-  return space;
-}
-
 // Where the field lies inside but some view looks through: the surface has to give way there.
 // Near and beyond the ends of the garment it runs on where there is no cloth any more: views that look through there
 // say nothing, and would bend the cloth inwards up to its rim.
-void carve(const Space& space, const CoveredBody& body, const std::vector<DepthView>& views,
+void carve(const LayerSpace& space, const CoveredBody& body, const std::vector<DepthView>& views,
            const std::vector<float>& ease, const LayerParams& params, LatticeData& data) {
-  const float outside = static_cast<float>(0.7 * space.lattice.step_m);
+  const float outside = static_cast<float>(kOutside * space.lattice.step_m);
   tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
     for (int y = 0; y < space.lattice.size[1]; ++y)
       for (int x = 0; x < space.lattice.size[0]; ++x) {
         const std::size_t at = space.lattice.index(x, y, z);
-        if (!space.domain[at] || space.body_distance[at] < 0.002f) continue;
+        if (!space.domain[at] || space.body_distance[at] < kOnBody_m) continue;
         if (space.body_distance[at] - ease[at] > outside) continue;
         const Vector3d point = space.lattice.point(x, y, z);
         for (const DepthView& view : views)
           if (free_space_violation_m(view, point) > params.carve_m) {
             if (body.beyond_ends(point) + params.margin_m > -params.end_m) break;
             data.value[at] = space.body_distance[at] - outside;
-            data.weight[at] = std::max(data.weight[at], 0.5f);
+            data.weight[at] = std::max(data.weight[at], kCarvedWeight);
             break;
           }
       }
@@ -157,17 +94,16 @@ struct Outer {
 // Where the garment beneath has to end at the latest: a gap inside the outer one, but never inside the body. Negative
 // inside.
 double beneath(const Outer& outer, const Vector3d& point, double body_distance, double gap_m) {
-  constexpr double kClearance_m = 0.002;
   if (point.y() < outer.bottom_y) return -std::numeric_limits<double>::infinity();
   return std::min(outer.closed.signed_distance(point) + gap_m, body_distance - kClearance_m);
 }
 
 // Negative inside the garment taken as a solid: within the layer, its ends and the legs' hulls, beneath what is worn
 // over it, and not in the slits that keep apart what goes round each limb.
-std::vector<float> solid(const Space& space, const CoveredBody& body, const LegHulls& hulls,
+std::vector<float> solid(const LayerSpace& space, const CoveredBody& body, const LegHulls& hulls,
                          const std::vector<float>& ease, const std::optional<Outer>& outer, const LayerParams& params) {
   const auto least = static_cast<float>(params.clearance_m);
-  const double slit_m = 0.75 * space.lattice.step_m;  // half its width: no lattice point is jumped over
+  const double slit_m = kSlit * space.lattice.step_m;
   std::vector<float> field(space.lattice.count());
   tbb::parallel_for(0, space.lattice.size[2], [&](int z) {
     for (int y = 0; y < space.lattice.size[1]; ++y)
@@ -190,12 +126,12 @@ std::vector<float> solid(const Space& space, const CoveredBody& body, const LegH
   return field;
 }
 
-std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud cloud, const GarmentExtent& extent,
+std::optional<ClosedGarment> make_garment(GarmentCloud cloud, const GarmentLayout& layout,
                                           const std::optional<Outer>& outer, const std::vector<DepthView>& views,
-                                          const MeshQuery& naked, const BodyLimbs& limbs, const LayerParams& params) {
-  const CoveredBody body(naked, limbs, name, extent, params.margin_m);
-  const GarmentCloud carried = extrapolated(cloud, name, extent, naked, limbs, params.margin_m);
-  const Space space = make_space(body, carried.cloud, params);
+                                          const MeshQuery& naked, const Landmarks& limbs, const LayerParams& params) {
+  const CoveredBody body(naked, limbs, layout, params.margin_m);
+  const GarmentCloud carried = extrapolated(cloud, layout, naked, limbs, params.margin_m);
+  const LayerSpace space = make_space(body, carried.cloud, params.step_m, params.reach_m);
 
   LatticeData data = plane_distances(space.lattice, carried, cloud.smoothing * params.kernel_m, params.reach_m);
   for (std::size_t i = 0; i < data.value.size(); ++i) data.value[i] = space.body_distance[i] - data.value[i];
@@ -203,46 +139,87 @@ std::optional<ClosedGarment> make_garment(const std::string& name, GarmentCloud 
   carve(space, body, views, ease, params, data);
   ease = diffuse(space.lattice, data, space.domain, params.stiffness, 2 * params.sweeps, ease);
 
-  const LegHulls hulls(carried.cloud, naked.mesh(), limbs, extent, params.margin_m);
+  const LegHulls hulls(carried.cloud, naked.mesh(), limbs, layout, params.margin_m);
   BallReport report;
   std::vector<float> field = ball_field(space.lattice, solid(space, body, hulls, ease, outer, params), report);
   if (field.empty()) return {};
   ClosedGarment garment;
   garment.mesh = edge_collapsed(lattice_surface(space.lattice, field), params.edge_m);
   garment.support = std::move(cloud.cloud);
+  garment.layout = layout;
   return garment;
+}
+
+// A cleaned cloud says more of a garment than labelled pixels do: where it ends, and whether there are legs in it,
+// unless the pixels were surer of that.
+GarmentLayout refined(GarmentLayout layout, const PointCloud& cloud, const MeshQuery& naked, const Landmarks& limbs) {
+  if (!layout.upper())
+    if (const FoundKind found = bottom_kind(cloud.points, limbs); found.sure > layout.sure_kind) {
+      layout.kind = found.kind;
+      layout.sure_kind = found.sure;
+    }
+  return with_ends(std::move(layout), cloud.points, naked, limbs);
+}
+
+// Clouds that are large enough to make a surface of, and what they say of their garments.
+struct Cloths {
+  std::map<std::string, GarmentCloud> clouds;
+  GarmentLayouts layouts;
+};
+Cloths gather(const CaptureSession& session, const FilledViews& filled, const GarmentLayouts& segmented,
+              const std::vector<DepthView>& views, const MeshQuery& naked, const Landmarks& limbs,
+              const LayerParams& params) {
+  Cloths result;
+  for (const auto& [name, layout] : segmented) {
+    GarmentCloud cloud = garment_cloud(name, filled, views, session, naked, limbs, params.cloud);
+    if (static_cast<int>(cloud.cloud.points.size()) < params.fewest_points) continue;
+    result.layouts.emplace(name, refined(layout, cloud.cloud, naked, limbs));
+    result.clouds.emplace(name, std::move(cloud));
+  }
+  if (result.clouds.size() < 2) return result;
+  GarmentLayout &top = result.layouts.at("top"), &bottom = result.layouts.at("bottom");
+  const WornOrder order = worn_order(result.clouds["top"].cloud, result.clouds["bottom"].cloud, naked, limbs);
+  top.worn = order.top;
+  bottom.worn = order.top == Worn::under ? Worn::over : Worn::under;
+  top.sure_worn = bottom.sure_worn = order.sure;
+  if (bottom.worn == Worn::under) bottom = up_to_the_waist(bottom, top, limbs);
+  return result;
+}
+
+// The kind that a closed surface is, which decides how many openings can be cut.
+void take_kind_of_surface(const Landmarks& limbs, ClosedGarment& garment) {
+  GarmentLayout& layout = garment.layout;
+  if (layout.upper()) return;
+  const FoundKind found = closed_bottom_kind(garment.mesh, limbs, {layout.kind, layout.sure_kind});
+  layout.kind = found.kind;
+  layout.sure_kind = found.sure;
+  for (int side = 0; side < 2; ++side) layout.legs[side].covered = limbs.leg(side) && layout.forked();
 }
 
 // The garment as a layer round the body: its ease, the distance off the covered part of the naked body, is known where
 // views saw cloth and harmonic in between; space that a view sees through is carved; what is inside is shaped into a
 // ball (no webs between arm and torso that close a ring) and its surface is taken with marching tetrahedra.
-ClosedGarments layer(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
-                     const Registration& registration, const FilledViews& filled, const LayerParams& params) {
-  const BodyLimbs limbs = find_limbs(naked.body);
+ClosedGarments layer(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
+                     const Registration& registration, const FilledViews& filled, const GarmentLayouts& segmented,
+                     const LayerParams& params) {
+  require_known(naked, "surface.layer");
   const MeshQuery query(naked.body);
-  const std::vector<DepthView> views = depth_views(session, calibration, registration);
-  std::map<std::string, GarmentCloud> clouds;
-  std::map<std::string, GarmentExtent> extents;
-  for (const auto& each : filled.garments) {
-    GarmentCloud cloud = garment_cloud(each.first, filled, views, session, query, limbs, params.cloud);
-    if (static_cast<int>(cloud.cloud.points.size()) < params.fewest_points) continue;
-    extents.emplace(each.first, garment_extent(each.first, cloud.cloud, query, limbs));
-    clouds.emplace(each.first, std::move(cloud));
-  }
-  const bool both = extents.count("top") && extents.count("bottom");
-  const bool tucked = both && is_tucked(clouds["top"].cloud, clouds["bottom"].cloud, query, limbs);
-  if (both && !tucked) extents["bottom"] = up_to_the_waist(extents["bottom"], extents["top"], limbs);
+  const auto views = depth_views(session, calibration, registration.model_from_sensor);
+  Cloths cloths = gather(session, filled, segmented, views, query, naked.landmarks, params);
   ClosedGarments closed;
   std::optional<Outer> outer;
   for (const char* name : {"top", "bottom"}) {  // the top hangs over the bottom, unless it is tucked in
-    const auto cloud = clouds.find(name);
-    if (cloud == clouds.end()) continue;
-    auto garment = make_garment(name, std::move(cloud->second), extents[name], outer, views, query, limbs, params);
+    const auto cloud = cloths.clouds.find(name);
+    if (cloud == cloths.clouds.end()) continue;
+    const GarmentLayout& layout = cloths.layouts.at(name);
+    auto garment = make_garment(std::move(cloud->second), layout, outer, views, query, naked.landmarks, params);
     if (!garment) continue;
-    if (!tucked) outer.emplace(Outer{MeshQuery(garment->mesh), extents[name].bottom_y});
+    take_kind_of_surface(naked.landmarks, *garment);
+    if (layout.worn != Worn::under) outer.emplace(Outer{MeshQuery(garment->mesh), layout.bottom_y});
     closed.garments.emplace(name, std::move(*garment));
   }
-  closed.tucked = tucked && closed.garments.size() == 2;
+  if (closed.garments.size() < 2)
+    for (auto& [name, garment] : closed.garments) garment.layout.worn = Worn::alone;
   return closed;
 }
 

@@ -21,18 +21,18 @@ Eigen::Vector2d flat(const Vector3d& p) { return {p.x(), p.z()}; }
 
 }  // namespace
 
-LegHulls::LegHulls(const PointCloud& cloth, const Mesh& body, const BodyLimbs& limbs, const GarmentExtent& extent,
+LegHulls::LegHulls(const PointCloud& cloth, const Mesh& body, const Landmarks& limbs, const GarmentLayout& layout,
                    double margin_m) {
-  if (!extent.forked || !limbs.left_leg || !limbs.right_leg) return;
+  if (!layout.forked() || !limbs.left_leg || !limbs.right_leg) return;
   known_ = true;
   top_y_ = limbs.crotch_y - kBelowCrotch_m;
   middle_ = limbs.hips();
   left_ = limbs.left;
   for (int side = 0; side < 2; ++side)
-    legs_[side] = make_leg(side, cloth, body, limbs, extent.leg_bottom_y[side] - margin_m);
+    legs_[side] = make_leg(side, cloth, body, limbs, layout.legs[side].end_y - margin_m);
 }
 
-LegHulls::Leg LegHulls::make_leg(int side, const PointCloud& cloth, const Mesh& body, const BodyLimbs& limbs,
+LegHulls::Leg LegHulls::make_leg(int side, const PointCloud& cloth, const Mesh& body, const Landmarks& limbs,
                                  double bottom_y) const {
   const int levels = std::max(0, static_cast<int>(std::ceil((top_y_ - bottom_y) / kStep_m)) + 1);
   std::vector<std::vector<cv::Point2f>> slices(levels);

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "pipeline/body/body_limbs.h"
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/surface/covered_body.h"
 #include "scenes/mesh.h"
 
@@ -15,7 +15,7 @@ namespace dressform {
 class LegHulls {
  public:
   // Without hulls where the garment is not forked.
-  LegHulls(const PointCloud& cloth, const Mesh& body, const BodyLimbs& limbs, const GarmentExtent& extent,
+  LegHulls(const PointCloud& cloth, const Mesh& body, const Landmarks& limbs, const GarmentLayout& layout,
            double margin_m);
 
   // Distance beyond the hull, negative within; far within where no hull is known and on the sides of the legs that
@@ -34,7 +34,7 @@ class LegHulls {
     Eigen::Vector2d inwards = Eigen::Vector2d::Zero();  // towards the other leg
   };
 
-  Leg make_leg(int side, const PointCloud& cloth, const Mesh& body, const BodyLimbs& limbs, double bottom_y) const;
+  Leg make_leg(int side, const PointCloud& cloth, const Mesh& body, const Landmarks& limbs, double bottom_y) const;
   double at_level(const Leg& leg, int level, const Eigen::Vector2d& at) const;
 
   bool known_ = false;

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/surface/covered_body.h"
 #include "pipeline/surface/extrapolated.h"
 #include "pipeline/surface/leg_hulls.h"
-#include "pipeline/surface/tucked.h"
 #include "pipeline/testing/dressed_figure.h"
 #include "scenes/error.h"
 
@@ -22,7 +20,8 @@ const figure::Capture& shirt_and_trousers() {
 }
 
 ClosedGarments run(const std::string& variant, const figure::Capture& c) {
-  return Surface::at(variant).run(c.session, c.calibration, c.naked, c.registration, c.filled, {}, 1);
+  return Surface::at(variant).run(c.session, c.calibration, c.body, c.registration, c.filled, c.segmentation.garments,
+                                  {}, 1);
 }
 
 // Distances of vertices to the true cloth, ends and their margins left out.
@@ -43,72 +42,10 @@ std::vector<double> errors(const Mesh& mesh, const std::string& garment, const f
   return result;
 }
 
-TEST(GarmentExtent, ClothBesideAHandIsNoSleeve) {
-  const Mesh body = figure::body_mesh();
-  const MeshQuery naked(body);
-  const BodyLimbs limbs = find_limbs(body);
-  PointCloud cloud;
-  for (double t = 0; t < 1; t += 0.01)
-    for (int i = 0; i < 30; ++i) {
-      const double angle = 2 * M_PI * i / 30;
-      const Vector3d round(0.06 * std::cos(angle), 0, 0.06 * std::sin(angle));
-      cloud.points.push_back(figure::shoulder(1) + 0.4 * t * (figure::hand(1) - figure::shoulder(1)) + round);
-      if (std::cos(angle) < 0) cloud.points.push_back(figure::hand(1) + Vector3d(0, 0.1 * t, 0) + round);
-    }
-  const GarmentExtent extent = garment_extent("top", cloud, naked, limbs);
-  const double hand = limbs.left_arm->along(figure::hand(1));
-  EXPECT_GT(extent.arm_along[0], 0.1);
-  EXPECT_LT(extent.arm_along[0], hand - 0.25);
-}
-
-TEST(GarmentExtent, HiddenBottomsReachTheWaistHoweverLongTheTop) {
-  BodyLimbs limbs;
-  limbs.waist_y = 1.05;
-  GarmentExtent top, bottom;
-  top.top_y = 1.45;
-  bottom.bottom_y = 0.3;
-  for (const double hem : {1.0, 0.75, 0.5}) {
-    top.bottom_y = hem;
-    bottom.top_y = hem + 0.01;
-    EXPECT_EQ(up_to_the_waist(bottom, top, limbs).top_y, 1.05) << hem;
-    EXPECT_EQ(up_to_the_waist(bottom, top, limbs).bottom_y, 0.3);
-  }
-  bottom.top_y = 1.02;  // below the waist by its own cut, skin above it
-  top.bottom_y = 1.2;
-  EXPECT_EQ(up_to_the_waist(bottom, top, limbs).top_y, 1.02);
-}
-
-// A ring of points round the figure's waist.
-void add_ring(double radius, double low, double high, PointCloud& cloud) {
-  for (double y = low; y < high; y += 0.008)
-    for (int i = 0; i < 90; ++i) {
-      const double angle = 2 * M_PI * i / 90;
-      cloud.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
-    }
-}
-
-TEST(Tucked, TheOuterGarmentIsTheOneFurtherOffTheBody) {
-  const Mesh body = figure::body_mesh();
-  const MeshQuery naked(body);
-  const BodyLimbs limbs = find_limbs(body);
-  const auto tucked = [&](double top_m, double bottom_m, double gap_m) {
-    PointCloud top, bottom;
-    add_ring(0.15 + top_m, 1.04 + gap_m, 1.3, top);
-    add_ring(0.15 + bottom_m, 0.9, 1.04, bottom);
-    return is_tucked(top, bottom, naked, limbs);
-  };
-  EXPECT_TRUE(tucked(0.01, 0.02, 0));
-  EXPECT_TRUE(tucked(0.01, 0.02, 0.03));
-  EXPECT_FALSE(tucked(0.02, 0.01, 0));
-  EXPECT_FALSE(tucked(0.01, 0.01, 0));
-  EXPECT_FALSE(tucked(0.01, 0.02, 0.15));  // skin between them
-  EXPECT_FALSE(is_tucked({}, {}, naked, limbs));
-}
-
 // A flared skirt in eight folds, seen down to 30 mm above its hem.
 TEST(Extrapolated, FoldsAndFlareGoOnToTheHem) {
   const Mesh body = figure::body_mesh();
-  const BodyLimbs limbs = find_limbs(body);
+  const Landmarks limbs = find_landmarks(body);
   constexpr double kSlope = 0.3, kEnd_m = 0.5;
   const auto radius = [&](double angle, double y) { return 0.25 + 0.03 * std::cos(8 * angle) + kSlope * (kEnd_m - y); };
   GarmentCloud cloud;
@@ -120,10 +57,11 @@ TEST(Extrapolated, FoldsAndFlareGoOnToTheHem) {
       cloud.cloud.normals.push_back((out - turn * round + kSlope * Vector3d::UnitY()).normalized());
       cloud.weights.push_back(1);
     }
-  GarmentExtent extent;
-  extent.top_y = 1.0;
-  extent.bottom_y = kEnd_m;
-  const GarmentCloud carried = extrapolated(cloud, "bottom", extent, MeshQuery(body), limbs, 0.05);
+  GarmentLayout layout;
+  layout.kind = "skirt";
+  layout.top_y = 1.0;
+  layout.bottom_y = kEnd_m;
+  const GarmentCloud carried = extrapolated(cloud, layout, MeshQuery(body), limbs, 0.05);
   ASSERT_GT(carried.cloud.points.size(), cloud.cloud.points.size() + 1000);
   double lowest = 1;
   for (std::size_t i = cloud.cloud.points.size(); i < carried.cloud.points.size(); ++i) {
@@ -140,7 +78,7 @@ TEST(Extrapolated, FoldsAndFlareGoOnToTheHem) {
 // Cloth round the legs of which only the outer half is seen: towards the other leg it is as taut as the leg allows.
 TEST(LegHulls, LimitTheInnerSidesOnly) {
   const Mesh body = figure::body_mesh();
-  const BodyLimbs limbs = find_limbs(body);
+  const Landmarks limbs = find_landmarks(body);
   PointCloud cloth;
   for (const double side : {1.0, -1.0})
     for (double y = 0.25; y < 0.8; y += 0.006)
@@ -148,11 +86,12 @@ TEST(LegHulls, LimitTheInnerSidesOnly) {
         const double angle = M_PI / 2 * i / 30;
         cloth.points.emplace_back(side * (0.1 + 0.11 * std::cos(angle)), y, 0.11 * std::sin(angle));
       }
-  GarmentExtent extent;
-  extent.leg_bottom_y = {0.25, 0.25};
-  EXPECT_LT(LegHulls(cloth, body, limbs, extent, 0.05).beyond({0.01, 0.5, 0}), -0.1);  // no trousers
-  extent.forked = true;
-  const LegHulls hulls(cloth, body, limbs, extent, 0.05);
+  GarmentLayout layout;
+  layout.kind = "skirt";
+  for (LimbCover& leg : layout.legs) leg.end_y = 0.25;
+  EXPECT_LT(LegHulls(cloth, body, limbs, layout, 0.05).beyond({0.01, 0.5, 0}), -0.1);  // no trousers
+  layout.kind = "trousers";
+  const LegHulls hulls(cloth, body, limbs, layout, 0.05);
   for (const double side : {1.0, -1.0}) {
     EXPECT_NEAR(hulls.beyond({side * 0.01, 0.5, 0}), 0.019, 0.006) << side;  // the leg's own radius is 70 mm
     EXPECT_LT(hulls.beyond({side * 0.04, 0.5, 0}), 0) << side;
@@ -200,7 +139,7 @@ TEST_P(EverySurface, DoesNotDependOnTheNumberOfThreads) {
 TEST_P(EverySurface, MissingViewsAndGarments) {
   figure::Capture capture = figure::capture({}, 0.002, 0.25);
   EXPECT_TRUE(Surface::at(GetParam())
-                  .run(capture.session, capture.calibration, capture.naked, capture.registration, {}, {}, 1)
+                  .run(capture.session, capture.calibration, capture.body, capture.registration, {}, {}, {}, 1)
                   .garments.empty());
   capture.registration.model_from_sensor.erase("k2");
   capture.filled.garments["top"].erase("k3");
@@ -216,7 +155,7 @@ TEST_P(EverySurface, MissingViewsAndGarments) {
   EXPECT_FALSE(run(GetParam(), capture).garments.count("top"));
   capture.registration.model_from_sensor.clear();
   EXPECT_TRUE(run(GetParam(), capture).garments.empty());
-  capture.naked.body = {};
+  capture.body = {};
   EXPECT_THROW(run(GetParam(), capture), InputError);
 }
 

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "pipeline/geometry/lattice.h"
 #include "scenes/random.h"
 
 namespace dressform::analytic {
@@ -173,60 +174,16 @@ Shot capture(const World& world, const SceneOptions& options, const SensorCalibr
   return shot;
 }
 
-// The zero level of the body's distance by marching tetrahedra on a grid of cubes of `step` metres.
-Mesh body_mesh(const std::vector<Capsule>& parts, double step) {
-  const Vector3d low(-0.45, -0.05, -0.25);
-  const Vector3i size(static_cast<int>(0.9 / step), static_cast<int>(1.95 / step), static_cast<int>(0.55 / step));
-  const auto place = [&](int i) {
-    return Vector3d(low + step * Vector3d(i % size.x(), i / size.x() % size.y(), i / size.x() / size.y()));
-  };
-  std::vector<double> value(static_cast<std::size_t>(size.prod()));
-  tbb::parallel_for(0, size.prod(), [&](int i) {
+// The zero level of the body's distance.
+Mesh body_mesh(const std::vector<Capsule>& parts, double step_m) {
+  const Lattice lattice = make_lattice({-0.45, -0.05, -0.25}, {0.45, 1.85, 0.25}, 0, step_m);
+  std::vector<float> field(lattice.count());
+  tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {
     double d = 1e9;
-    for (const Capsule& part : parts) d = std::min(d, distance(part, place(i)));
-    value[i] = std::abs(d) < 1e-9 ? 1e-9 : d;
+    for (const Capsule& part : parts) d = std::min(d, distance(part, lattice.point(i)));
+    field[i] = static_cast<float>(d);
   });
-  Mesh mesh;
-  std::map<std::pair<int, int>, int> crossings;
-  const auto crossing = [&](int inside, int outside) {
-    const auto [found, fresh] = crossings.emplace(std::minmax(inside, outside), static_cast<int>(mesh.vertices.size()));
-    const double t = value[inside] / (value[inside] - value[outside]);
-    if (fresh) mesh.vertices.push_back(place(inside) + t * (place(outside) - place(inside)));
-    return found->second;
-  };
-  const auto add = [&](int a, int b, int c, const Vector3d& inside) {
-    const Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-    if ((q - p).cross(r - p).dot(p - inside) < 0) std::swap(b, c);
-    mesh.triangles.emplace_back(a, b, c);
-  };
-  const auto tetrahedron = [&](const std::array<int, 4>& corners) {
-    std::vector<int> in, out;
-    for (const int i : corners) (value[i] < 0 ? in : out).push_back(i);
-    if (in.size() == 1 || in.size() == 3) {
-      const bool lone_in = in.size() == 1;
-      const int lone = lone_in ? in[0] : out[0];
-      std::array<int, 3> v{};
-      for (int k = 0; k < 3; ++k) v[k] = lone_in ? crossing(lone, out[k]) : crossing(in[k], lone);
-      add(v[0], v[1], v[2], place(in[0]));
-    } else if (in.size() == 2) {
-      const int a = crossing(in[0], out[0]), b = crossing(in[0], out[1]), c = crossing(in[1], out[1]),
-                d = crossing(in[1], out[0]);
-      add(a, b, c, place(in[0]));
-      add(a, c, d, place(in[0]));
-    }
-  };
-  const std::array<std::array<int, 2>, 6> paths{{{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}};
-  for (int z = 0; z + 1 < size.z(); ++z) {
-    for (int y = 0; y + 1 < size.y(); ++y) {
-      for (int x = 0; x + 1 < size.x(); ++x) {
-        const auto corner = [&](int k) {
-          return ((z + (k >> 2)) * size.y() + y + (k >> 1 & 1)) * size.x() + x + (k & 1);
-        };
-        for (const auto& path : paths) tetrahedron({corner(0), corner(path[0]), corner(path[1]), corner(7)});
-      }
-    }
-  }
-  return mesh;
+  return lattice_surface(lattice, field);
 }
 
 SensorCalibration scaled_kinect(double scale) {
@@ -280,6 +237,7 @@ AnalyticScene make_scene(const SceneOptions& options) {
   scene.session.calibration = scene.calibration;
   scene.naked.body = body_mesh(body_parts(), 0.01);
   scene.naked.converged = true;
+  scene.body = known_body(scene.naked.body);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "pipeline/body/body_landmarks.h"
 #include "pipeline/fuse/fuse.h"
 #include "pipeline/registration/registration.h"
 #include "scenes/capture_session.h"
@@ -27,6 +28,7 @@ struct AnalyticScene {
   CaptureSession session;
   Calibration calibration;
   BodyModel naked;                        // in the model frame, which here is the world
+  KnownBody body;                         // the same, with its landmarks
   Registration registration;              // true
   std::map<std::string, cv::Mat> labels;  // truth at colour size: 0 none, 1 skin, 2 top, 3 bottom
 };

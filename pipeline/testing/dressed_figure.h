@@ -87,6 +87,7 @@ struct Capture {
   CaptureSession session;
   Calibration calibration;
   BodyModel naked;
+  KnownBody body;  // the same, with its landmarks
   Registration registration;
   Segmentation segmentation;
   FilledViews filled;
@@ -129,6 +130,7 @@ inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double sc
   result.clothes = clothes;
   result.naked.body = body_mesh();
   result.naked.converged = true;
+  result.body = known_body(result.naked.body);
   SensorCalibration sensor;
   sensor.ir = camera(static_cast<int>(512 * scale), static_cast<int>(424 * scale), 366 * scale);
   sensor.color = camera(static_cast<int>(960 * scale), static_cast<int>(540 * scale), 530 * scale);
@@ -183,7 +185,8 @@ inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double sc
     }
   }
   result.session.calibration = result.calibration;
-  result.segmentation.kinds = {{"top", "shirt"}, {"bottom", clothes.skirt ? "skirt" : "trousers"}};
+  result.segmentation.garments["top"].kind = "shirt";
+  result.segmentation.garments["bottom"].kind = clothes.skirt ? "skirt" : "trousers";
   return result;
 }
 

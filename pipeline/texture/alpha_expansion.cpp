@@ -6,7 +6,8 @@
 namespace dressform {
 namespace {
 
-constexpr int kMaxRounds = 10;
+constexpr int kMaxRounds = 10;       // three are usual
+constexpr double kLeastGain = 1e-9;  // of the energy: less is rounding
 
 double energy(const Eigen::MatrixXd& costs, const std::vector<PottsEdge>& edges, const std::vector<int>& labels) {
   double sum = 0;
@@ -59,7 +60,7 @@ std::vector<int> alpha_expansion(const Eigen::MatrixXd& costs, const std::vector
     for (int alpha = 0; alpha < costs.cols(); ++alpha) {
       std::vector<int> proposed = expanded(costs, edges, labels, alpha);
       const double reached = energy(costs, edges, proposed);
-      if (!(reached < least * (1 - 1e-9))) continue;
+      if (!(reached < least * (1 - kLeastGain))) continue;
       least = reached;
       labels = std::move(proposed);
       better = true;

@@ -24,7 +24,8 @@ void fields(V& v, BestViewParams& p) {
   v("largest_px", p.atlas.largest_px, 64, 16384, "px", "largest width and height of the texture");
 }
 
-// Every triangle from the one view that sees it best, as photographed: neither levelled nor blended.
+// Every triangle from the one view that sees it best, as photographed: neither levelled nor blended. A baseline: the
+// data term alone of Lempitsky and Ivanov, CVPR 2007.
 TexturedGarments best_view(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                            const Registration& registration, const FilledViews& filled, const OpenGarments& opened,
                            const BestViewParams& params) {

@@ -16,6 +16,8 @@ using Corners = std::array<Vector2d, 3>;
 
 constexpr int kAxes = 6;  // +x, -x, +y, -y, +z, -z
 constexpr double kSmallestScale = 0.01;
+constexpr double kShrink = 0.97;      // beyond what the texture's size asks for: packing does not shrink evenly
+constexpr double kNearest_m = 0.3;    // no camera stands nearer to what it shows
 constexpr double kLeastFacing = 0.1;  // more oblique triangles are laid out along an axis
 
 // Twice the area of a triangle in an image; positive where it is counter-clockwise as displayed (y is down).
@@ -52,12 +54,12 @@ struct Layout {
 };
 
 double pixels_per_metre(const Mesh& mesh, const std::vector<ColorView>& views) {
-  constexpr double kWithoutViews = 500;
+  constexpr double kWithoutViews = 500;  // about a Kinect's at 2 m
   if (views.empty() || mesh.vertices.empty()) return kWithoutViews;
   Vector3d center = Vector3d::Zero();
   for (const Vector3d& v : mesh.vertices) center += v / static_cast<double>(mesh.vertices.size());
   double sum = 0;
-  for (const ColorView& view : views) sum += view.camera.fx / std::max(0.3, (view.eye - center).norm());
+  for (const ColorView& view : views) sum += view.camera.fx / std::max(kNearest_m, (view.eye - center).norm());
   return sum / static_cast<double>(views.size());
 }
 
@@ -197,7 +199,7 @@ Atlas make_atlas(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<
     const int largest = std::max(packing.size.width, packing.size.height);
     // Gutters do not shrink with the charts: so many charts that they alone fill the texture make it larger.
     if (largest > params.largest_px && atlas.texels_per_pixel > kSmallestScale) {
-      atlas.texels_per_pixel *= 0.97 * params.largest_px / largest;
+      atlas.texels_per_pixel *= kShrink * params.largest_px / largest;
       continue;
     }
     atlas.size = packing.size;

@@ -14,7 +14,11 @@ namespace dressform {
 namespace {
 
 constexpr float kFar = 1e6f;
-constexpr double kChromaRange = 6;  // of luma, over its noise, within which chroma is shared
+constexpr double kNearest_m = 0.3;   // no camera stands nearer to a garment
+constexpr double kUsual_m = 2;       // distance to a garment that has no vertex
+constexpr double kInFront_m = 0.05;  // z from which a point is before the camera
+constexpr double kSeen = 0.5;        // trust from which a pixel counts for the view's brightness
+constexpr double kChromaRange = 6;   // of luma, over its noise, within which chroma is shared
 
 // Every triangle's z in the camera, nearest first, over the crop.
 cv::Mat depth_of(const ColorView& view, const cv::Rect& crop, const std::vector<const Mesh*>& scenery) {
@@ -82,7 +86,7 @@ cv::Mat blurred_within(const cv::Mat& color, const cv::Mat& trust, double sigma_
 
 // Mean level of what is trusted.
 double brightness(const cv::Mat& color, const cv::Mat& trust) {
-  const cv::Scalar mean = cv::mean(color, trust > 0.5);
+  const cv::Scalar mean = cv::mean(color, trust > kSeen);
   return (mean[0] + mean[1] + mean[2]) / 3;
 }
 
@@ -123,7 +127,7 @@ cv::Mat with_calm_chroma(const cv::Mat& color, const cv::Mat& trust, double reac
 double garment_distance(const ColorView& view, const Mesh& garment) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& v : garment.vertices) box.extend(v);
-  return box.isEmpty() ? 2 : std::max(0.3, (view.eye - box.center()).norm());
+  return box.isEmpty() ? kUsual_m : std::max(kNearest_m, (view.eye - box.center()).norm());
 }
 
 void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment,
@@ -152,7 +156,7 @@ void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment
 bool ColorView::project(const Vector3d& point, Vector2d& pixel, double& z_m) const {
   const Vector3d p = camera_from_model * point;
   z_m = p.z();
-  if (!(z_m > 0.05)) return false;
+  if (!(z_m > kInFront_m)) return false;
   pixel = camera.project(p) - origin;
   return pixel.allFinite();
 }

@@ -1,23 +1,21 @@
 #include "pipeline/texture/gains.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+
+#include "scenes/srgb.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
 constexpr float kDarkest = 8, kBrightest = 247;  // levels outside say little of the ratio
+constexpr float kSeen = 0.5f;                    // trust from which a view's colour is compared
+constexpr double kPull = 1e-6;                   // of a view's gain towards none, over one ratio
 
-float level_of(float linear) {
-  return 255.f * (linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f);
-}
-
-float median(std::vector<float> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
+float level_of(float linear) { return 255.f * srgb_of_linear(linear); }
 
 }  // namespace
 
@@ -26,7 +24,7 @@ void Overlaps::add(const std::vector<ColorView>& views, const VertexSamples& sam
     for (std::size_t j = i + 1; j < views.size(); ++j) {
       auto& ratios = log_ratios_[{views[i].sensor, views[j].sensor}];
       for (Eigen::Index v = 0; v < samples.trust.rows(); ++v) {
-        if (std::min(samples.trust(v, i), samples.trust(v, j)) < 0.5f) continue;
+        if (std::min(samples.trust(v, i), samples.trust(v, j)) < kSeen) continue;
         if (std::min(samples.facing(v, i), samples.facing(v, j)) < params.least_facing) continue;
         for (int c = 0; c < 3; ++c) {
           const float a = samples.low[i](v, c), b = samples.low[j](v, c);
@@ -46,7 +44,7 @@ std::map<std::string, cv::Vec3f> Overlaps::gains(const GainParams& params) const
   for (const auto& [sensor, i] : index) gains[sensor] = cv::Vec3f(1, 1, 1);
   for (int c = 0; c < 3 && next > 0; ++c) {
     // Weak pull to no gain: settles the mean, and whoever overlaps nobody.
-    Eigen::MatrixXd a = Eigen::MatrixXd::Identity(next, next) * 1e-6;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Identity(next, next) * kPull;
     Eigen::VectorXd b = Eigen::VectorXd::Zero(next);
     for (const auto& [pair, ratios] : log_ratios_) {
       if (static_cast<int>(ratios[c].size()) < std::max(1, params.least_vertices)) continue;
@@ -67,10 +65,7 @@ std::map<std::string, cv::Vec3f> Overlaps::gains(const GainParams& params) const
 
 bool is_usable_level(float level) { return level >= kDarkest && level <= kBrightest; }
 
-float linear_of_level(float level) {
-  const float c = level / 255.f;
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
+float linear_of_level(float level) { return linear_of_srgb(level / 255.f); }
 
 float with_gain(float level, float gain) { return gain == 1.f ? level : level_of(gain * linear_of_level(level)); }
 

@@ -8,6 +8,7 @@
 namespace dressform {
 namespace {
 
+constexpr double kBusy = 40;       // levels between the ends of an edge from which on a print is as busy as any
 constexpr double kUnseenCost = 6;  // against 0 (seen straight on) to 1 (seen from the side)
 
 struct Sight {
@@ -57,7 +58,7 @@ double contrast_at(const SurfaceGraph::Edge& edge, const VertexSamples& samples)
   Eigen::Index best = 0;
   (samples.trust.row(edge.a) + samples.trust.row(edge.b)).maxCoeff(&best);
   const float difference = (samples.low[best].row(edge.a) - samples.low[best].row(edge.b)).cwiseAbs().maxCoeff();
-  return std::min(1.0, difference / 40.0);
+  return std::min(1.0, difference / kBusy);
 }
 
 }  // namespace

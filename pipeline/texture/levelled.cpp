@@ -48,7 +48,8 @@ void fields(V& v, LevelledParams& p) {
     "part of the room's light, as it falls on the naked body, that is taken off the cloth");
 }
 
-// Best views by graph cut, exposure levelled between them, two bands blended across the seams.
+// Best views by graph cut (Lempitsky and Ivanov, CVPR 2007; Boykov, Veksler and Zabih, PAMI 2001), exposure levelled
+// between them, two bands blended across the seams (Burt and Adelson, ACM TOG 1983).
 TexturedGarments levelled(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                           const Registration& registration, const FilledViews& filled, const OpenGarments& opened,
                           const LevelledParams& params) {

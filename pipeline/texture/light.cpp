@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -14,17 +14,18 @@
 namespace dressform {
 namespace {
 
-constexpr std::size_t kLeastReadings = 1000;
-constexpr std::size_t kPlaces = 12000;  // about as many vertices are looked at in every view
-constexpr double kLeastFacing = 0.35;   // more oblique ones are near outlines, and glossy
-constexpr double kOffSurface_m = 1e-3;  // where rays to the camera start
-constexpr double kBlurPx = 1.5;         // over which colour is averaged: the noise
-constexpr int kPasses = 8;              // of reweighting
-constexpr double kScale = 0.04;         // of the log's residual, in Cauchy's weight
-constexpr double kPull = 1e-6;
-constexpr double kLeastExplained = 0.5;
-constexpr double kMiddle_m = 1;    // height where its terms are zero
-constexpr double kLargestLog = 1;  // light is taken off by no more than this factor's log
+constexpr std::size_t kLeastReadings = 1000;  // for 14 terms, and some of them outliers
+constexpr std::size_t kPlaces = 12000;        // about as many vertices are looked at in every view
+constexpr double kLeastFacing = 0.35;         // more oblique ones are near outlines, and glossy
+constexpr double kOffSurface_m = 1e-3;        // where rays to the camera start
+constexpr double kInFront_m = 0.05;           // z from which a point is before the camera
+constexpr double kBlurPx = 1.5;               // over which colour is averaged: the noise
+constexpr int kPasses = 8;                    // of reweighting
+constexpr double kScale = 0.04;               // of the log's residual, in Cauchy's weight
+constexpr double kPull = 1e-6;                // of all unknowns towards 0, over one reading
+constexpr double kLeastExplained = 0.5;       // of the variance: else it is not light that colours the body
+constexpr double kMiddle_m = 1;               // height where its terms are zero
+constexpr double kLargestLog = 1;             // light is taken off by no more than this factor's log
 
 using Terms = Eigen::Matrix<double, 1, Light::kTerms>;
 
@@ -65,7 +66,7 @@ void read_view(const MeshQuery& body, const std::vector<Vector3d>& normals, cons
   const std::size_t step = std::max<std::size_t>(1, normals.size() / kPlaces);
   for (std::size_t v = 0; v < normals.size(); v += step) {
     const Vector3d &point = body.mesh().vertices[v], to_eye = eye - point, p = camera_from_model * point;
-    if (normals[v].dot(to_eye) < kLeastFacing * to_eye.norm() || !(p.z() > 0.05)) continue;
+    if (normals[v].dot(to_eye) < kLeastFacing * to_eye.norm() || !(p.z() > kInFront_m)) continue;
     const auto log_level = log_level_at(levels, camera.project(p));
     if (!log_level || body.first_hit(point + kOffSurface_m * normals[v], to_eye)) continue;
     readings.push_back({terms_of(point, normals[v]), sensor, *log_level});

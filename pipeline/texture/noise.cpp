@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -42,16 +44,15 @@ std::array<std::vector<double>, kBins> noise_of_blocks(const cv::Mat& color) {
 
 double noise_levels(const cv::Mat& color, double level) {
   if (color.cols <= 2 * kBlock || color.rows <= 2 * kBlock) return 0;
-  auto bins = noise_of_blocks(color);
+  const auto bins = noise_of_blocks(color);
   double weighted = 0, weights = 0;
   for (int i = 0; i < kBins; ++i) {
     if (bins[i].size() < kLeastBlocks) continue;
-    const auto at = bins[i].begin() + static_cast<std::ptrdiff_t>(kSmoothest * static_cast<double>(bins[i].size()));
-    std::nth_element(bins[i].begin(), at, bins[i].end());
+    const double noise = nth_value(bins[i], static_cast<std::size_t>(kSmoothest * static_cast<double>(bins[i].size())));
     // The nearest bins count most: an empty bin takes its neighbours' noise.
     const double away = (level - (i + 0.5) * 256 / kBins) / 16;
     const double weight = std::exp(-0.5 * away * away) + 1e-12 / (1 + away * away);
-    weighted += weight * *at;
+    weighted += weight * noise;
     weights += weight;
   }
   return weights > 0 ? weighted / weights : 0;

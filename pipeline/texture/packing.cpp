@@ -7,7 +7,8 @@
 namespace dressform {
 namespace {
 
-constexpr int kStep = 4;  // boxes start at multiples of this
+constexpr double kWaste = 1.1;  // of the boxes' area: what is left free between them
+constexpr int kStep = 4;        // boxes start at multiples of this
 
 int rounded_up(int value) { return (value + kStep - 1) / kStep * kStep; }
 
@@ -22,7 +23,7 @@ Packing pack(const std::vector<cv::Size>& boxes) {
     area += static_cast<double>(box.area());
     widest = std::max(widest, box.width);
   }
-  const int width = rounded_up(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area * 1.1)))));
+  const int width = rounded_up(std::max(widest, static_cast<int>(std::ceil(std::sqrt(area * kWaste)))));
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) {

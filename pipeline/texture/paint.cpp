@@ -12,6 +12,8 @@
 namespace dressform {
 namespace {
 
+constexpr float kGrazing = 0.17f;           // cosine of 80 degrees; twice it is 70
+constexpr int kGutterSteps = 4;             // pixels by which colours grow into gutters before coarser images fill
 constexpr float kSomeTrust = 0.02f;         // from here on a colour counts in full
 constexpr float kFallback = 1e-3f;          // weight of views that were not chosen, for where the chosen one fails
 const cv::Vec3f kUncolored(128, 128, 128);  // where no view colours anything
@@ -36,7 +38,7 @@ TexelGrid rasterized(const Atlas& atlas) {
 
 // 0 where a surface is more oblique than about 80 degrees, 1 from 70 degrees on.
 float facing_factor(float facing) {
-  const float t = std::clamp((facing - 0.17f) / 0.17f, 0.f, 1.f);
+  const float t = std::clamp((facing - kGrazing) / kGrazing, 0.f, 1.f);
   return t * t * (3 - 2 * t);
 }
 
@@ -143,7 +145,6 @@ class Painter {
 // Colours spread outwards into empty texels: a few pixels by the mean of their neighbours, for the gutters, and the
 // rest from ever coarser images, so that no mipmap level mixes in a foreign colour.
 cv::Mat without_gaps(cv::Mat color, cv::Mat covered) {
-  const int gutter_steps = 4;
   const auto grown = [](const cv::Mat& values, const cv::Mat& mask, cv::Mat& sum, cv::Mat& weight) {
     cv::Mat masked;
     values.copyTo(masked, mask);
@@ -152,7 +153,7 @@ cv::Mat without_gaps(cv::Mat color, cv::Mat covered) {
     mask.convertTo(ones, CV_32F, 1 / 255.0);
     cv::boxFilter(ones, weight, CV_32F, {3, 3}, {-1, -1}, false, cv::BORDER_CONSTANT);
   };
-  for (int step = 0; step < gutter_steps; ++step) {
+  for (int step = 0; step < kGutterSteps; ++step) {
     cv::Mat sum, weight;
     grown(color, covered, sum, weight);
     for (int y = 0; y < color.rows; ++y)

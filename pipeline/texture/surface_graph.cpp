@@ -7,6 +7,10 @@
 namespace dressform {
 namespace {
 
+constexpr double kMostSteps = 2000;  // of spreading: a reach beyond that is the whole garment
+constexpr int kMostSweeps = 300;
+constexpr float kSettled = 0.255f;  // a thousandth of the levels: changes smaller than this are not seen
+
 // Sides of all triangles, sorted by their vertices.
 std::vector<std::array<int, 3>> sorted_sides(const Mesh& mesh) {
   std::vector<std::array<int, 3>> sides;  // a, b, triangle
@@ -84,7 +88,7 @@ Eigen::MatrixXf spread_over_surface(const SurfaceGraph& graph, Eigen::MatrixXf v
   if (!(graph.mean_edge_m > 0)) return values;
   // A half step to the mean of a ring of radius e has a variance of e^2 / 4 along each direction.
   const double per_step = 0.25 * graph.mean_edge_m * graph.mean_edge_m;
-  const int steps = static_cast<int>(std::min(2000.0, std::ceil(reach_m * reach_m / per_step)));
+  const int steps = static_cast<int>(std::min(kMostSteps, std::ceil(reach_m * reach_m / per_step)));
   Eigen::MatrixXf next = values;
   for (int step = 0; step < steps; ++step) {
     for (int v = 0; v < values.rows(); ++v)
@@ -107,15 +111,14 @@ Eigen::MatrixXf fill_over_surface(const SurfaceGraph& graph, Eigen::MatrixXf val
   for (int v = 0; v < values.rows(); ++v)
     if (!known[v]) values.row(v) = mean;
   const std::vector<int> order = spread_in_layers(graph, values, known);
-  constexpr int kMaxSweeps = 300;
-  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     float largest = 0;
     for (const int v : order) {
       const Eigen::RowVectorXf mean_around = neighbor_mean(graph, values, v);
       largest = std::max(largest, (mean_around - values.row(v)).cwiseAbs().maxCoeff());
       values.row(v) = mean_around;
     }
-    if (largest < 0.255f) break;
+    if (largest < kSettled) break;
   }
   return values;
 }

@@ -1,18 +1,23 @@
 #include <tiny_gltf.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <set>
+#include <map>
 
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/formats/file_mesh.h"
+#include "scenes/formats/glb_data.h"
+#include "scenes/formats/glb_material.h"
+#include "scenes/srgb.h"
 
 namespace dressform {
 namespace {
 
+using Eigen::Matrix4d;
+
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr int kDeepest = 64;  // nodes within nodes; rigs of whole figures have about twenty
 
 // Images are kept as they are in the file; whoever needs one decodes it.
 bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
@@ -22,30 +27,38 @@ bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*,
   return true;
 }
 
+Matrix4d local_transform(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) return Eigen::Map<const Matrix4d>(node.matrix.data());  // both column-major
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  if (node.translation.size() == 3) motion.translate(Eigen::Map<const Vector3d>(node.translation.data()));
+  if (node.rotation.size() == 4) {
+    const auto& q = node.rotation;  // x, y, z, w
+    motion.rotate(Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized());
+  }
+  if (node.scale.size() == 3) motion.scale(Eigen::Map<const Vector3d>(node.scale.data()));
+  return motion.matrix();
+}
+
 class Reader {
  public:
-  Reader(std::string where, std::filesystem::path folder, const tinygltf::Model& model)
-      : where_(std::move(where)), folder_(std::move(folder)), model_(model) {}
+  Reader(const std::filesystem::path& path, const tinygltf::Model& model, Wanted wanted)
+      : path_(path), model_(model), data_(path.string(), model), wanted_(wanted), placed_(model.nodes.size(), false) {
+    world_from_node_.assign(model.nodes.size(), Matrix4d::Identity());
+  }
 
   FileMesh read() {
-    for (int node : roots()) read_node(node, Eigen::Matrix4d::Identity(), 0);
+    for (int node : roots()) place_node(node, Matrix4d::Identity(), 0);
+    for (int n = 0; n < static_cast<int>(model_.nodes.size()); ++n)
+      if (placed_[n] && model_.nodes[n].mesh >= 0) read_node(n);
     result_.may_be_split = true;
-    for (int image : images_) read_image(image);
+    if (!any_uv_) result_.corner_uv.clear();
+    if (!any_color_) result_.corner_color.clear();
     return std::move(result_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& problem) const { throw InputError(where_, problem); }
-
-  template <class T>
-  const T& at(const std::vector<T>& list, int index, const char* what) const {
-    if (index < 0 || index >= static_cast<int>(list.size()))
-      fail(std::string("names ") + what + " " + std::to_string(index) + "; expected one that the file has");
-    return list[index];
-  }
-
   std::vector<int> roots() const {
-    if (!model_.scenes.empty()) return at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
+    if (!model_.scenes.empty()) return data_.at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
     std::vector<char> is_child(model_.nodes.size(), 0);
     for (const auto& node : model_.nodes)
       for (int child : node.children)
@@ -56,179 +69,220 @@ class Reader {
     return result;
   }
 
-  static Eigen::Matrix4d local_transform(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) return Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // both column-major
-    Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-    if (node.translation.size() == 3) motion.translate(Eigen::Map<const Vector3d>(node.translation.data()));
-    if (node.rotation.size() == 4) {
-      const auto& q = node.rotation;  // x, y, z, w
-      motion.rotate(Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized());
+  void place_node(int index, const Matrix4d& world_from_parent, int depth) {
+    const tinygltf::Node& node = data_.at(model_.nodes, index, "node");
+    if (placed_[index]) data_.fail("node " + std::to_string(index) + " is reached twice; expected a tree of nodes");
+    if (depth > kDeepest) data_.fail("the nodes are nested more than " + std::to_string(kDeepest) + " deep");
+    placed_[index] = true;
+    world_from_node_[index] = world_from_parent * local_transform(node);
+    for (int child : node.children) place_node(child, world_from_node_[index], depth + 1);
+  }
+
+  void read_node(int index) {
+    const tinygltf::Node& node = model_.nodes[index];
+    const tinygltf::Mesh& mesh = data_.at(model_.meshes, node.mesh, "mesh");
+    for (const auto& primitive : mesh.primitives) {
+      if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) continue;  // points and lines
+      read_primitive(primitive, index, node.weights.empty() ? mesh.weights : node.weights);
     }
-    if (node.scale.size() == 3) motion.scale(Eigen::Map<const Vector3d>(node.scale.data()));
-    return motion.matrix();
-  }
-
-  void read_node(int index, const Eigen::Matrix4d& world_from_parent, int depth) {
-    if (depth > 64) fail("the nodes form a cycle or are nested more than 64 deep");
-    const tinygltf::Node& node = at(model_.nodes, index, "node");
-    const Eigen::Matrix4d world_from_node = world_from_parent * local_transform(node);
-    if (node.mesh >= 0)
-      for (const auto& primitive : at(model_.meshes, node.mesh, "mesh").primitives)
-        read_primitive(primitive, world_from_node);
-    for (int child : node.children) read_node(child, world_from_node, depth + 1);
-  }
-
-  // The accessor's first component of each element, with the step between elements; bounds are checked.
-  struct Data {
-    const unsigned char* bytes;
-    std::size_t stride, count;
-    int component_type;
-    double scale;  // of normalised whole numbers
-  };
-  Data data_of(int index, int wanted_type) const {
-    const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
-    if (accessor.type != wanted_type || accessor.sparse.isSparse)
-      fail("accessor " + std::to_string(index) + " is sparse or of another type; expected plain data");
-    const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "buffer view");
-    const tinygltf::Buffer& buffer = at(model_.buffers, view.buffer, "buffer");
-    const int stride = accessor.ByteStride(view);
-    const std::size_t element =
-        tinygltf::GetComponentSizeInBytes(accessor.componentType) * tinygltf::GetNumComponentsInType(accessor.type);
-    if (stride <= 0) fail("accessor " + std::to_string(index) + " has no valid step");
-    const std::size_t size = buffer.data.size(), start = view.byteOffset + accessor.byteOffset;
-    const bool inside = view.byteOffset <= size && accessor.byteOffset <= size && start + element <= size &&
-                        (accessor.count == 0 || accessor.count - 1 <= (size - start - element) / stride);
-    if (!inside) fail("accessor " + std::to_string(index) + " leaves its buffer; the file is truncated or damaged");
-    double scale = 1;
-    if (accessor.normalized) scale = element_scale(accessor.componentType);
-    return {buffer.data.data() + start, static_cast<std::size_t>(stride), accessor.count, accessor.componentType,
-            scale};
-  }
-
-  static double element_scale(int component_type) {
-    switch (component_type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return 1.0 / 127;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return 1.0 / 255;
-      case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return 1.0 / 32767;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return 1.0 / 65535;
-      default:
-        return 1;
-    }
-  }
-
-  template <class T>
-  static double value_at(const unsigned char* bytes, int component) {
-    T value;
-    std::memcpy(&value, bytes + component * sizeof(T), sizeof(T));
-    return static_cast<double>(value);
-  }
-
-  double number(const Data& data, std::size_t element, int component) const {
-    const unsigned char* bytes = data.bytes + element * data.stride;
-    switch (data.component_type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return data.scale * value_at<std::int8_t>(bytes, component);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return data.scale * value_at<std::uint8_t>(bytes, component);
-      case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return data.scale * value_at<std::int16_t>(bytes, component);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return data.scale * value_at<std::uint16_t>(bytes, component);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return value_at<std::uint32_t>(bytes, component);
-      case TINYGLTF_COMPONENT_TYPE_FLOAT:
-        return value_at<float>(bytes, component);
-    }
-    fail("found an unknown component type; expected one of glTF's");
   }
 
   // Vertex numbers (within the primitive) of its triangles, three in a row.
-  std::vector<std::size_t> corner_numbers(const tinygltf::Primitive& primitive, std::size_t vertices) const {
-    std::vector<std::size_t> list;
+  std::vector<int> corner_numbers(const tinygltf::Primitive& primitive, std::size_t vertices) const {
+    std::vector<int> list;
     if (primitive.indices >= 0) {
-      const Data data = data_of(primitive.indices, TINYGLTF_TYPE_SCALAR);
-      for (std::size_t i = 0; i < data.count; ++i) list.push_back(static_cast<std::size_t>(number(data, i, 0)));
+      const std::vector<double> numbers = data_.numbers(primitive.indices, TINYGLTF_TYPE_SCALAR);
+      list.reserve(numbers.size());
+      for (double index : numbers) {
+        if (!(index >= 0 && index < static_cast<double>(vertices)))
+          data_.fail("a triangle names vertex " + std::to_string(index) + "; expected one of " +
+                     std::to_string(vertices));
+        list.push_back(static_cast<int>(index));
+      }
     } else {
-      for (std::size_t i = 0; i < vertices; ++i) list.push_back(i);
+      for (std::size_t i = 0; i < vertices; ++i) list.push_back(static_cast<int>(i));
     }
-    for (std::size_t index : list)
-      if (index >= vertices) fail("a triangle names vertex " + std::to_string(index) + "; expected one that exists");
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode < 0) return list;
-    std::vector<std::size_t> result;
+    std::vector<int> result;
     const bool fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
     for (std::size_t i = 2; i < list.size(); ++i) {
       const bool swapped = !fan && i % 2 == 1;
-      const std::size_t a = fan ? list[0] : list[i - 2];
+      const int a = fan ? list[0] : list[i - 2];
       result.insert(result.end(), {a, swapped ? list[i] : list[i - 1], swapped ? list[i - 1] : list[i]});
     }
     return result;
   }
 
-  void read_primitive(const tinygltf::Primitive& primitive, const Eigen::Matrix4d& world_from_node) {
-    if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines
+  // A vertex attribute, of `vertices` elements; empty where the primitive has none.
+  std::vector<double> attribute(const std::map<std::string, int>& attributes, const std::string& name, int type,
+                                std::size_t vertices) const {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) return {};
+    if (data_.count(found->second) != vertices) data_.fail(name + " and POSITION differ in number");
+    return data_.numbers(found->second, type);
+  }
+
+  std::vector<Vector3d> morphed_positions(const tinygltf::Primitive& primitive,
+                                          const std::vector<double>& weights) const {
     const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end()) fail("a primitive has no POSITION; expected one");
-    const Data xyz = data_of(position->second, TINYGLTF_TYPE_VEC3);
-    const int first = static_cast<int>(result_.mesh.vertices.size());
-    for (std::size_t i = 0; i < xyz.count; ++i) {
-      const Vector3d local(number(xyz, i, 0), number(xyz, i, 1), number(xyz, i, 2));
-      result_.mesh.vertices.push_back((world_from_node * local.homogeneous()).head<3>());
+    if (position == primitive.attributes.end()) data_.fail("a primitive has no POSITION; expected one");
+    std::vector<double> xyz = data_.numbers(position->second, TINYGLTF_TYPE_VEC3);
+    for (std::size_t t = 0; t < primitive.targets.size() && t < weights.size(); ++t) {
+      if (weights[t] == 0) continue;
+      const std::vector<double> step = attribute(primitive.targets[t], "POSITION", TINYGLTF_TYPE_VEC3, xyz.size() / 3);
+      for (std::size_t i = 0; i < step.size(); ++i) xyz[i] += weights[t] * step[i];
     }
-    const std::vector<Vector2f> uv = read_uv(primitive, xyz.count);
-    const bool mirrored = world_from_node.topLeftCorner<3, 3>().determinant() < 0;
-    const auto corners = corner_numbers(primitive, xyz.count);
+    std::vector<Vector3d> result;
+    result.reserve(xyz.size() / 3);
+    for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) result.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+    return result;
+  }
+
+  // Where each joint takes what is bound to it.
+  std::vector<Matrix4d> joint_motions(const tinygltf::Skin& skin) const {
+    std::vector<double> inverse;
+    if (skin.inverseBindMatrices >= 0) {
+      inverse = data_.numbers(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4);
+      if (inverse.size() < 16 * skin.joints.size())
+        data_.fail("a skin has fewer inverse bind matrices than its " + std::to_string(skin.joints.size()) + " joints");
+    }
+    std::vector<Matrix4d> motions;
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      const int joint = skin.joints[j];
+      data_.at(model_.nodes, joint, "joint");
+      if (!placed_[joint]) data_.fail("joint " + std::to_string(joint) + " of a skin is not in the scene");
+      motions.push_back(world_from_node_[joint]);
+      if (!inverse.empty()) motions.back() *= Eigen::Map<const Matrix4d>(inverse.data() + 16 * j);
+    }
+    return motions;
+  }
+
+  // Linear blend skinning, as glTF has it: a skinned mesh goes where its joints are, whatever its own node says. Where
+  // each vertex's weights take it; empty for a mesh without skin.
+  std::vector<Matrix4d> skin_motions(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
+                                     std::size_t vertices) const {
+    if (node.skin < 0) return {};
+    const std::vector<Matrix4d> motions = joint_motions(data_.at(model_.skins, node.skin, "skin"));
+    std::vector<Matrix4d> blended(vertices, Matrix4d::Zero());
+    std::vector<double> sums(vertices, 0);
+    for (int set = 0; primitive.attributes.count("JOINTS_" + std::to_string(set)); ++set) {
+      const auto joints =
+          attribute(primitive.attributes, "JOINTS_" + std::to_string(set), TINYGLTF_TYPE_VEC4, vertices);
+      const auto weights =
+          attribute(primitive.attributes, "WEIGHTS_" + std::to_string(set), TINYGLTF_TYPE_VEC4, vertices);
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (weights[i] == 0) continue;
+        if (!(joints[i] >= 0 && joints[i] < static_cast<double>(motions.size())))
+          data_.fail("a vertex is bound to joint " + std::to_string(joints[i]) + "; expected one of the skin's " +
+                     std::to_string(motions.size()));
+        blended[i / 4] += weights[i] * motions[static_cast<std::size_t>(joints[i])];
+        sums[i / 4] += weights[i];
+      }
+    }
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (!(sums[v] > 0)) data_.fail("vertex " + std::to_string(v) + " of a skinned mesh is bound to no joint");
+      blended[v] /= sums[v];
+    }
+    return blended;
+  }
+
+  void read_primitive(const tinygltf::Primitive& primitive, int node, const std::vector<double>& weights) {
+    const std::vector<Vector3d> local = morphed_positions(primitive, weights);
+    if (result_.mesh.vertices.size() + local.size() > kMostVertices)
+      data_.fail("has more than " + std::to_string(kMostVertices) + " vertices; expected a garment or a body");
+    const std::vector<Matrix4d> skinned = skin_motions(primitive, model_.nodes[node], local.size());
+    const int first = static_cast<int>(result_.mesh.vertices.size());
+    for (std::size_t i = 0; i < local.size(); ++i)
+      result_.mesh.vertices.push_back(
+          ((skinned.empty() ? world_from_node_[node] : skinned[i]) * local[i].homogeneous()).head<3>());
+    const Matrix4d& motion = skinned.empty() ? world_from_node_[node] : skinned.front();
+    add_triangles(primitive, first, local.size(), motion.topLeftCorner<3, 3>().determinant() < 0);
+  }
+
+  void add_triangles(const tinygltf::Primitive& primitive, int first, std::size_t vertices, bool mirrored) {
+    const int material = wanted_ == Wanted::look ? material_number(primitive) : -1;
+    const auto uv = read_uv(primitive, material, vertices);
+    const auto colors = read_colors(primitive, material, vertices);
+    const auto corners = corner_numbers(primitive, vertices);
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-      const std::size_t a = corners[i], b = corners[i + (mirrored ? 2 : 1)], c = corners[i + (mirrored ? 1 : 2)];
-      result_.mesh.triangles.emplace_back(first + static_cast<int>(a), first + static_cast<int>(b),
-                                          first + static_cast<int>(c));
+      const int a = corners[i], b = corners[i + (mirrored ? 2 : 1)], c = corners[i + (mirrored ? 1 : 2)];
+      result_.mesh.triangles.emplace_back(first + a, first + b, first + c);
+      if (wanted_ == Wanted::shape) continue;
+      result_.material.push_back(material);
       result_.corner_uv.push_back({uv[a], uv[b], uv[c]});
+      result_.corner_color.push_back({colors[a], colors[b], colors[c]});
     }
   }
 
-  // Texture coordinates that the material's image wants; remembers the image.
-  std::vector<Vector2f> read_uv(const tinygltf::Primitive& primitive, std::size_t vertices) {
-    int set = 0;
-    if (primitive.material >= 0) {
-      const auto& info = at(model_.materials, primitive.material, "material").pbrMetallicRoughness.baseColorTexture;
-      if (info.extensions.count("KHR_texture_transform"))
-        fail("uses KHR_texture_transform; expected texture coordinates without it");
-      set = info.texCoord;
-      if (info.index >= 0) images_.insert(at(model_.textures, info.index, "texture").source);
+  // The number of the primitive's material in the result; -1 without one.
+  int material_number(const tinygltf::Primitive& primitive) {
+    if (primitive.material < 0) return -1;
+    const auto [at, fresh] = numbers_.try_emplace(primitive.material, static_cast<int>(glb_materials_.size()));
+    if (fresh) {
+      glb_materials_.push_back(read_glb_material(path_, data_, primitive.material, result_.images));
+      result_.materials.push_back(glb_materials_.back().material);
     }
+    return at->second;
+  }
+
+  std::vector<Vector2f> read_uv(const tinygltf::Primitive& primitive, int material, std::size_t vertices) {
+    if (wanted_ == Wanted::shape) return {};
     std::vector<Vector2f> uv(vertices, Vector2f(kNone, kNone));
-    const auto found = primitive.attributes.find("TEXCOORD_" + std::to_string(set));
-    if (found == primitive.attributes.end()) return uv;
-    const Data data = data_of(found->second, TINYGLTF_TYPE_VEC2);
-    if (data.count != vertices) fail("TEXCOORD and POSITION differ in number");
-    for (std::size_t i = 0; i < vertices; ++i)
-      uv[i] = Vector2f(static_cast<float>(number(data, i, 0)), static_cast<float>(number(data, i, 1)));
+    const GlbMaterial look = material < 0 ? GlbMaterial{} : glb_materials_[material];
+    const auto numbers =
+        attribute(primitive.attributes, "TEXCOORD_" + std::to_string(look.uv_set), TINYGLTF_TYPE_VEC2, vertices);
+    any_uv_ = any_uv_ || !numbers.empty();
+    const bool moved = !look.image_from_uv.matrix().isIdentity(0);
+    for (std::size_t i = 0; 2 * i + 1 < numbers.size(); ++i) {
+      uv[i] = {static_cast<float>(numbers[2 * i]), static_cast<float>(numbers[2 * i + 1])};
+      if (moved) uv[i] = look.image_from_uv * uv[i];
+    }
     return uv;
   }
 
-  void read_image(int index) {
-    const tinygltf::Image& image = at(model_.images, index, "image");
-    if (!image.image.empty())
-      result_.embedded_images.emplace_back(image.image.begin(), image.image.end());
-    else if (!image.uri.empty())
-      result_.images.push_back(folder_ / image.uri);
+  // COLOR_0 is linear; it multiplies the material's colour.
+  std::vector<Vector3f> read_colors(const tinygltf::Primitive& primitive, int material, std::size_t vertices) {
+    if (wanted_ == Wanted::shape) return {};
+    std::vector<Vector3f> colors(vertices, Vector3f::Ones());
+    const auto found = primitive.attributes.find("COLOR_0");
+    if (found == primitive.attributes.end()) return colors;
+    const int type = data_.at(model_.accessors, found->second, "accessor").type;
+    const std::size_t parts = type == TINYGLTF_TYPE_VEC4 ? 4 : 3;
+    const auto numbers =
+        attribute(primitive.attributes, "COLOR_0", parts == 4 ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, vertices);
+    bool white = true;
+    for (std::size_t i = 0; i < vertices; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const auto linear = static_cast<float>(numbers[parts * i + static_cast<std::size_t>(k)]);
+        white = white && linear >= 1;
+        colors[i][k] = srgb_from_linear(linear * (material < 0 ? 1 : result_.materials[material].tint[k]));
+      }
+    if (white) return colors;
+    any_color_ = true;
+    if (material >= 0 && result_.materials[material].image >= 0 && !result_.materials[material].fault)
+      result_.materials[material].fault.emplace(
+          path_.string(), "material \"" + result_.materials[material].name +
+                              "\" multiplies its image with vertex colours (COLOR_0); expected one of the two");
+    return colors;
   }
 
-  std::string where_;
-  std::filesystem::path folder_;
+  const std::filesystem::path& path_;
   const tinygltf::Model& model_;
+  GlbData data_;
+  Wanted wanted_;
+  std::vector<bool> placed_;
+  std::vector<Matrix4d> world_from_node_;
+  std::map<int, int> numbers_;
+  std::vector<GlbMaterial> glb_materials_;  // as many as the result's
   FileMesh result_;
-  std::set<int> images_;
+  bool any_uv_ = false, any_color_ = false;
 };
 
 }  // namespace
 
-FileMesh read_glb_mesh(const std::filesystem::path& path) {
-  const std::string where = path.string(), bytes = read_file_bytes(path);
-  if (bytes.size() < 20) throw InputError(where, "the file is too short; expected a GLB");
+FileMesh read_glb_mesh(const std::filesystem::path& path, Wanted wanted) {
+  const std::string where = path.string(), bytes = read_file_bytes(path, kMostMeshBytes);
+  check_glb_json(where, bytes);
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_encoded, nullptr);
   tinygltf::Model model;
@@ -241,7 +295,7 @@ FileMesh read_glb_mesh(const std::filesystem::path& path) {
     errors = error.what();
   }
   if (!good) throw InputError(where, "not a readable GLB: " + errors.substr(0, errors.find('\n')));
-  return Reader(where, path.parent_path(), model).read();
+  return Reader(path, model, wanted).read();
 }
 
 }  // namespace dressform

@@ -9,6 +9,7 @@
 
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
+#include "scenes/formats/file_mesh.h"
 
 namespace dressform {
 namespace {
@@ -45,6 +46,21 @@ std::size_t size_of(Type type) {
       return 8;
     default:
       return 4;
+  }
+}
+
+double full_scale_of(Type type) {
+  switch (type) {
+    case Type::kInt8:
+      return 127;
+    case Type::kUint8:
+      return 255;
+    case Type::kInt16:
+      return 32767;
+    case Type::kUint16:
+      return 65535;
+    default:
+      return 1;
   }
 }
 
@@ -233,7 +249,7 @@ PlyElement read_element(const std::string& where, DataReader& data, const Elemen
   element.count = header.count;
   std::size_t least = 0;
   for (const auto& property : header.properties) {
-    element.properties.push_back({property.name, {}, {}});
+    element.properties.push_back({property.name, {}, {}, full_scale_of(property.type)});
     if (property.list) element.properties.back().starts.push_back(0);
     least += size_of(property.list ? property.count_type : property.type);
   }
@@ -263,7 +279,7 @@ const PlyElement* PlyFile::find(const std::string& element) const {
 }
 
 PlyFile read_ply_file(const std::filesystem::path& path) {
-  const std::string where = path.string(), bytes = read_file_bytes(path);
+  const std::string where = path.string(), bytes = read_file_bytes(path, kMostMeshBytes);
   const Header header = HeaderReader(where, bytes).read();
   DataReader data(where, bytes, header);
   PlyFile file;

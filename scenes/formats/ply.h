@@ -12,6 +12,7 @@ struct PlyProperty {
   std::string name;
   std::vector<double> values;       // one per entity; of a list: all entities' values in a row
   std::vector<std::size_t> starts;  // of a list: where each entity's values start, and the end of the last; else empty
+  double full_scale = 1;            // the largest value of an 8- or 16-bit type, of any other 1
 };
 struct PlyElement {
   std::string name;

@@ -3,7 +3,9 @@
 
 #include "scenes/error.h"
 #include "scenes/formats/file_mesh.h"
+#include "scenes/formats/mtl.h"
 #include "scenes/formats/ply.h"
+#include "scenes/formats/polygon.h"
 
 namespace dressform {
 namespace {
@@ -70,40 +72,126 @@ std::vector<int> polygon_of(const std::string& where, const PlyProperty& indices
   return polygon;
 }
 
-void read_faces(const std::string& where, const PlyElement& faces, const std::vector<Vector2f>& vertex_uv,
-                FileMesh& result) {
-  const PlyProperty* indices = faces.find("vertex_indices");
-  if (!indices) indices = faces.find("vertex_index");
-  if (!indices || indices->starts.empty())
-    throw InputError(where, "found faces without a list of vertex indices; expected vertex_indices");
-  const PlyProperty* texcoord = faces.find("texcoord");
-  if (texcoord && texcoord->starts.empty()) texcoord = nullptr;
-  for (std::size_t f = 0; f < faces.count; ++f) {
-    const auto polygon = polygon_of(where, *indices, f, result.mesh.vertices.size());
-    const bool textured = texcoord || !vertex_uv.empty();
-    const auto uv = textured ? polygon_uv(texcoord, f, vertex_uv, polygon) : std::vector<Vector2f>{};
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-      result.mesh.triangles.emplace_back(polygon[0], polygon[k - 1], polygon[k]);
-      if (textured) result.corner_uv.push_back({uv[0], uv[k - 1], uv[k]});
+// RGB 0-1 of vertices, of bytes or of fractions; empty when there are none.
+std::vector<Vector3f> read_vertex_colors(const PlyElement& element) {
+  const char* names[][3] = {
+      {"red", "green", "blue"}, {"r", "g", "b"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}};
+  for (const auto& name : names) {
+    const PlyProperty* rgb[3] = {element.find(name[0]), element.find(name[1]), element.find(name[2])};
+    if (!rgb[0] || !rgb[1] || !rgb[2]) continue;
+    std::vector<Vector3f> colors(element.count);
+    for (int k = 0; k < 3; ++k) {
+      if (!rgb[k]->starts.empty()) return {};
+      for (std::size_t i = 0; i < element.count; ++i)
+        colors[i][k] = static_cast<float>(rgb[k]->values[i] / rgb[k]->full_scale);
     }
+    return colors;
+  }
+  return {};
+}
+
+// Reads the faces, polygon by polygon.
+class Faces {
+ public:
+  Faces(const std::string& where, const PlyElement& faces, const PlyElement& vertices, Wanted wanted, FileMesh& result)
+      : where_(where), faces_(faces), result_(result), vertex_uv_(read_vertex_uv(vertices)) {
+    indices_ = faces.find("vertex_indices");
+    if (!indices_) indices_ = faces.find("vertex_index");
+    if (!indices_ || indices_->starts.empty())
+      throw InputError(where, "found faces without a list of vertex indices; expected vertex_indices");
+    result.may_be_split = !vertex_uv_.empty();
+    if (wanted == Wanted::shape) {
+      vertex_uv_.clear();
+      return;
+    }
+    texcoord_ = faces.find("texcoord");
+    if (texcoord_ && texcoord_->starts.empty()) texcoord_ = nullptr;
+    texture_number_ = faces.find("texnumber");
+    if (texture_number_ && !texture_number_->starts.empty()) texture_number_ = nullptr;
+    vertex_color_ = read_vertex_colors(vertices);
+  }
+
+  void read() {
+    for (std::size_t f = 0; f < faces_.count; ++f) read_face(f);
+  }
+
+ private:
+  void read_face(std::size_t face) {
+    const auto polygon = polygon_of(where_, *indices_, face, result_.mesh.vertices.size());
+    const bool textured = texcoord_ || !vertex_uv_.empty();
+    const auto uv = textured ? polygon_uv(texcoord_, face, vertex_uv_, polygon) : std::vector<Vector2f>{};
+    part(face, polygon);
+    for (const auto& [a, b, c] : triangles_) {
+      result_.mesh.triangles.emplace_back(polygon[a], polygon[b], polygon[c]);
+      if (textured) result_.corner_uv.push_back({uv[a], uv[b], uv[c]});
+      if (!vertex_color_.empty())
+        result_.corner_color.push_back(
+            {vertex_color_[polygon[a]], vertex_color_[polygon[b]], vertex_color_[polygon[c]]});
+      if (!result_.materials.empty()) result_.material.push_back(material_of(face));
+    }
+  }
+
+  // Fills `triangles_`.
+  void part(std::size_t face, const std::vector<int>& polygon) {
+    triangles_.clear();
+    if (polygon.size() == 3) {
+      triangles_.push_back({0, 1, 2});
+      return;
+    }
+    outline_.clear();
+    for (int v : polygon) outline_.push_back(result_.mesh.vertices[v]);
+    if (!triangulate(outline_, triangles_))
+      throw InputError(where_, "face " + std::to_string(face) + " has " + std::to_string(polygon.size()) +
+                                   " corners and an outline that crosses itself; expected a plane polygon");
+  }
+
+  int material_of(std::size_t face) const {
+    if (!texture_number_) return 0;
+    const double number = texture_number_->values[face];
+    if (!(number >= 0 && number < static_cast<double>(result_.materials.size())))
+      throw InputError(where_, "face " + std::to_string(face) +
+                                   " has a texnumber without a TextureFile; expected one of " +
+                                   std::to_string(result_.materials.size()));
+    return static_cast<int>(number);
+  }
+
+  const std::string& where_;
+  const PlyElement& faces_;
+  FileMesh& result_;
+  const PlyProperty *indices_ = nullptr, *texcoord_ = nullptr, *texture_number_ = nullptr;
+  std::vector<Vector2f> vertex_uv_;
+  std::vector<Vector3f> vertex_color_;
+  std::vector<Vector3d> outline_;
+  std::vector<std::array<int, 3>> triangles_;
+};
+
+// One material for each TextureFile comment.
+void read_textures(const std::filesystem::path& path, const PlyFile& file, FileMesh& result) {
+  for (const auto& comment : file.comments) {
+    if (comment.rfind("TextureFile ", 0) != 0) continue;
+    FileMaterial material;
+    material.name = std::string(trimmed(std::string_view(comment).substr(12)));
+    material.image = static_cast<int>(result.images.size());
+    material.transparency = Transparency::holes;
+    result.images.push_back({beside(path, material.name), {}});
+    result.materials.push_back(material);
   }
 }
 
 }  // namespace
 
-FileMesh read_ply_mesh(const std::filesystem::path& path) {
+FileMesh read_ply_mesh(const std::filesystem::path& path, Wanted wanted) {
   const std::string where = path.string();
   const PlyFile file = read_ply_file(path);
   const PlyElement *vertices = file.find("vertex"), *faces = file.find("face");
   if (!vertices) throw InputError(where, "found no vertices; expected the element \"vertex\"");
-  if (!faces) throw InputError(where, "found no faces; expected the element \"face\"");
+  if (!faces)
+    throw InputError(where, file.find("tristrips") ? "found triangle strips (tristrips); expected the element \"face\""
+                                                   : "found no faces; expected the element \"face\"");
   FileMesh result;
   result.mesh.vertices = read_vertices(where, *vertices);
-  const std::vector<Vector2f> vertex_uv = read_vertex_uv(*vertices);
-  result.may_be_split = !vertex_uv.empty();
-  read_faces(where, *faces, vertex_uv, result);
-  for (const auto& comment : file.comments)
-    if (comment.rfind("TextureFile ", 0) == 0) result.images.push_back(path.parent_path() / comment.substr(12));
+  if (wanted == Wanted::look) read_textures(path, file, result);
+  Faces(where, *faces, *vertices, wanted, result).read();
   return result;
 }
 

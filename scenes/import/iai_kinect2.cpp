@@ -7,6 +7,7 @@
 #include "scenes/image_file.h"
 #include "scenes/import/import.h"
 #include "scenes/import/opencv_yaml.h"
+#include "scenes/session_limits.h"
 
 // Folders of iai_kinect2 (Wiedemeyer, University of Bremen, 2014-2015): shots NNNN_sync_color.png, NNNN_sync_ir.png,
 // NNNN_sync_depth.png of kinect2_calibration, and its results calib_color.yaml, calib_ir.yaml, calib_pose.yaml (colour
@@ -20,11 +21,13 @@ namespace fs = std::filesystem;
 
 struct IaiKinect2Params {
   bool separate = false;
+  int no_depth = 65535;
 };
 
 template <class V>
 void fields(V& v, IaiKinect2Params& p) {
   v("separate", p.separate, "take NNNN_color.png, NNNN_ir.png and NNNN_depth.png of one number for one moment");
+  v("no_depth", p.no_depth, 0, 65535, "", "value of depth images that means none, besides 0 and 65535");
 }
 
 struct FoundFrames {
@@ -87,7 +90,6 @@ Camera read_camera(const fs::path& file, cv::Size size) {
   const cv::Mat k = yaml.matrix("cameraMatrix", 3, 3), d = yaml.matrix("distortionCoefficients", 0, 0);
   Camera camera{size.width,         size.height, k.at<double>(0, 0), k.at<double>(1, 1), k.at<double>(0, 2),
                 k.at<double>(1, 2), {}};
-  if (!(camera.fx >= 1 && camera.fy >= 1)) yaml.fail("cameraMatrix", "found no focal lengths; expected pixels");
   if (std::abs(camera.cx / size.width - 0.5) > 0.15 || std::abs(camera.cy / size.height - 0.5) > 0.15)
     yaml.fail("cameraMatrix",
               fmt::format("found a principal point of {:.0f}, {:.0f} for images of {} x {}; expected the "
@@ -102,6 +104,9 @@ Camera read_camera(const fs::path& file, cv::Size size) {
                                                       "is all that a session's cameras have",
                                                       d.total()));
   }
+  if (const auto found = problem_with(camera))
+    yaml.fail(found->field == "distortion" ? "distortionCoefficients" : "cameraMatrix",
+              found->field + ": " + found->problem);
   return camera;
 }
 
@@ -155,12 +160,15 @@ void read_calibration(const fs::path& folder, const RecordingUse& use, Recording
     const cv::Size size = read_image(first.color, kColorOrGreyImage).size();
     recording.sensor.color = read_camera(folder / "calib_color.yaml", size);
     recording.sensor.color_from_ir = read_step(folder / "calib_pose.yaml");
+    if (const auto found = problem_with(recording.sensor))
+      throw InputError((folder / "calib_pose.yaml").string() + ": translation", found->problem);
   }
   if (has("calib_depth.yaml")) {
     const OpenCvYaml yaml(folder / "calib_depth.yaml");
     const double shift_mm = yaml.number("depthShift");
-    if (std::abs(shift_mm) > 1000) yaml.fail("depthShift", "found more than a metre; expected millimetres");
     recording.sensor.depth_offset_m = -1e-3 * shift_mm;
+    if (const auto found = problem_with(recording.sensor))
+      yaml.fail("depthShift", found->problem + " (the file has millimetres)");
   } else {
     recording.notes.push_back("no calib_depth.yaml: depth is taken to have no offset");
   }
@@ -170,6 +178,7 @@ void read_calibration(const fs::path& folder, const RecordingUse& use, Recording
 Recording iai_kinect2(const fs::path& folder, const RecordingUse& use, const IaiKinect2Params& params) {
   Recording recording;
   recording.sensor.model = "kinect_v2";
+  recording.no_depth = {65535, params.no_depth};
   recording.frames = frames_for(folder, use, params.separate, recording.notes);
   read_calibration(folder, use, recording);
   return recording;

@@ -1,16 +1,16 @@
 #include "scenes/import/import.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <exception>
 
 #include "scenes/error.h"
 #include "scenes/image_file.h"
+#include "scenes/import/frame_writer.h"
 #include "scenes/import/merge_session.h"
 #include "scenes/session_folder.h"
 #include "scenes/session_layout.h"
+#include "scenes/session_limits.h"
 
 namespace dressform {
 namespace {
@@ -24,8 +24,10 @@ RecordingUse use_of(const std::string& role) {
   return role == "naked" || role == "dressed" ? RecordingUse::shot : RecordingUse::scan;
 }
 
-// The request with what was left open filled in.
-ImportRequest completed(ImportRequest request, const fs::path& recording) {
+// The request with what was left open filled in, by the recording where it says so itself.
+ImportRequest completed(ImportRequest request, const Recording& recording, const fs::path& path) {
+  if (request.role.empty()) request.role = recording.role;
+  if (request.sensor.empty()) request.sensor = recording.sensor_name;
   if (request.role.empty()) request.role = request.format == Importer::default_variant() ? "boards" : "scan_user";
   if (std::find(kRoles.begin(), kRoles.end(), request.role) == kRoles.end())
     throw InputError("--role " + request.role, "expected boards, naked, dressed, scan_naked or scan_user");
@@ -36,7 +38,7 @@ ImportRequest completed(ImportRequest request, const fs::path& recording) {
   if (request.world_from_sensor && use == RecordingUse::scan)
     throw InputError("--place", "found for a scan; expected it for a sensor of the rig, with another --role");
   if (request.name.empty() && request.with.empty()) {
-    const fs::path folder = fs::absolute(recording).lexically_normal();
+    const fs::path folder = fs::absolute(path).lexically_normal();
     request.name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   }
   return request;
@@ -52,7 +54,7 @@ std::vector<RecordedFrame> chosen_frames(const Recording& recording, const Impor
   if (frames.empty())
     throw InputError(folder.string(), fmt::format("found {} frames; expected one from --first {}",
                                                   recording.frames.size(), request.first));
-  const std::size_t allowed = request.role == "boards" ? 100 : 10000;
+  const std::size_t allowed = session_layout::kMostFrames;
   if (frames.size() > allowed)
     throw InputError(folder.string(), fmt::format("found {} frames; expected {} at most, which is what a session "
                                                   "allows: --every, --first and --frames choose",
@@ -69,8 +71,24 @@ Sizes sizes_of(const RecordedFrame& first, const Recording& recording, const Imp
   const Camera& camera = recording.sensor.ir;
   Sizes sizes;
   sizes.depth = read_image(first.depth, kDepthImage, known ? cv::Size(camera.width, camera.height) : cv::Size()).size();
-  if (use_of(request.role) != RecordingUse::scan) sizes.color = read_image(first.color, kColorOrGreyImage).size();
+  if (use_of(request.role) == RecordingUse::scan) return sizes;
+  const auto& color = recording.sensor.color;
+  sizes.color =
+      read_image(first.color, kColorOrGreyImage, known && color ? cv::Size(color->width, color->height) : cv::Size())
+          .size();
   return sizes;
+}
+
+[[noreturn]] void fail_without_calibration(const Recording& recording, RecordingUse use, const Sizes& sizes,
+                                           const fs::path& first_depth) {
+  const std::string found =
+      fmt::format("found no calibration for {} x {} pixels", sizes.depth.width, sizes.depth.height);
+  throw InputError(first_depth.string(),
+                   found + (recording.prime_sense     ? "; expected 640 x 480, whose camera is known, or --camera"
+                            : recording.on_color_grid ? "; expected --camera"
+                            : use == RecordingUse::scan
+                                ? "; expected calib_ir.yaml beside it, or --camera"
+                                : "; expected calib_ir.yaml, calib_color.yaml and calib_pose.yaml beside it"));
 }
 
 // The recording's calibration, or the one that the request gives instead; nothing where boards are to give it.
@@ -82,72 +100,53 @@ std::optional<SensorCalibration> calibration_for(const Recording& recording, con
   if (request.camera) {
     sensor.ir = *request.camera;
     sensor.ir.width = sizes.depth.width, sensor.ir.height = sizes.depth.height;
+    if (const auto found = problem_with(sensor.ir)) throw InputError("--camera", found->field + ": " + found->problem);
   }
-  if (recording.calibrated || (request.camera && use == RecordingUse::scan)) return sensor;
-  if (use == RecordingUse::boards) return {};
-  if (recording.prime_sense && sizes.depth == cv::Size(640, 480)) {
+  const bool prime_sense = recording.prime_sense && sizes.depth == cv::Size(640, 480);
+  const bool given = request.camera && (use == RecordingUse::scan || recording.on_color_grid);
+  if (!recording.calibrated && !given) {
+    if (use == RecordingUse::boards) return {};
+    if (!prime_sense) fail_without_calibration(recording, use, sizes, first_depth);
     sensor.ir = Camera{640, 480, 525, 525, 319.5, 239.5, {}};
-    return sensor;
   }
-  const std::string found =
-      fmt::format("found no calibration for {} x {} pixels", sizes.depth.width, sizes.depth.height);
-  throw InputError(first_depth.string(),
-                   found + (recording.prime_sense ? "; expected 640 x 480, whose camera is known, or --camera"
-                            : use == RecordingUse::scan
-                                ? "; expected calib_ir.yaml beside it, or --camera"
-                                : "; expected calib_ir.yaml, calib_color.yaml and calib_pose.yaml beside it"));
+  if (recording.on_color_grid) sensor.color.reset();
+  if (recording.on_color_grid && use != RecordingUse::scan) {
+    if (sizes.color != sizes.depth)
+      throw InputError(first_depth.string(),
+                       fmt::format("found {} x {} pixels of depth and {} x {} of colour; expected depth on colour's "
+                                   "grid, so images of one size",
+                                   sizes.depth.width, sizes.depth.height, sizes.color.width, sizes.color.height));
+    sensor.color = sensor.ir;
+    sensor.color_from_ir = Isometry3d::Identity();
+  }
+  return sensor;
 }
 
-cv::Mat depth_in_mm(const cv::Mat& depth, double per_m) {
-  if (per_m == 1000) return depth;
-  cv::Mat result(depth.size(), CV_16UC1);
-  for (int y = 0; y < depth.rows; ++y)
-    for (int x = 0; x < depth.cols; ++x)
-      result.at<std::uint16_t>(y, x) = cv::saturate_cast<std::uint16_t>(depth.at<std::uint16_t>(y, x) * 1000.0 / per_m);
-  return result;
-}
-
-// Reads, checks and writes one frame's images to where the session keeps them.
-void write_frame(const RecordedFrame& frame, int index, const ImportRequest& request, double depth_per_m,
-                 const Sizes& sizes, const fs::path& session) {
-  const RecordingUse use = use_of(request.role);
-  const cv::Mat depth = depth_in_mm(read_image(frame.depth, kDepthImage, sizes.depth), depth_per_m);
-  if (use == RecordingUse::scan) return write_png(session / request.role / session_layout::depth_frame(index), depth);
-  const bool boards = use == RecordingUse::boards;
-  const fs::path folder = session / request.role / request.sensor;
-  const auto target = [&](const char* what) {
-    return folder / (boards ? session_layout::board_image(index, what) : std::string(what) + ".png");
-  };
-  write_png(target("color"), read_image(frame.color, kColorOrGreyImage, sizes.color));
-  write_png(target("ir"), read_image(frame.ir, kDepthImage, sizes.depth));
-  write_png(target("depth"), depth);
-}
-
-// Frames side by side, as many in memory as there are threads. Of several that are wrong the first is reported.
-void write_frames(const std::vector<RecordedFrame>& frames, const ImportRequest& request, double depth_per_m,
-                  const Sizes& sizes, const fs::path& session) {
-  fs::create_directories(use_of(request.role) == RecordingUse::scan ? session / request.role
-                                                                    : session / request.role / request.sensor);
-  std::vector<std::exception_ptr> errors(frames.size());
-  tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t i) {
-    try {
-      write_frame(frames[i], static_cast<int>(i), request, depth_per_m, sizes, session);
-    } catch (...) {
-      errors[i] = std::current_exception();
-    }
-  });
-  for (const auto& error : errors)
-    if (error) std::rethrow_exception(error);
+// Every image that the role needs.
+void check_whole(const std::vector<RecordedFrame>& frames, RecordingUse use, const fs::path& folder) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool color = !frames[i].color.empty(), ir = !frames[i].ir.empty(), depth = !frames[i].depth.empty();
+    const char* missing = !depth                                ? "depth"
+                          : use != RecordingUse::scan && !color ? "colour"
+                          : use == RecordingUse::boards && !ir  ? "infrared"
+                                                                : nullptr;
+    if (missing)
+      throw InputError(folder.string(), fmt::format("found no {} image of frame {}; expected depth for a scan, colour "
+                                                    "as well for a shot, and infrared too for boards",
+                                                    missing, i));
+  }
 }
 
 }  // namespace
 
 ImportReport import_recording(const fs::path& folder, const ImportRequest& asked, const fs::path& session) {
   if (fs::exists(session)) throw InputError(session.string(), "is there already; expected a new folder");
-  const ImportRequest request = completed(asked, folder);
+  ImportRequest request = completed(asked, {}, folder);
+  Recording recording = Importer::at(request.format).run(folder, use_of(request.role), request.values, 0);
+  request = completed(asked, recording, folder);
   const RecordingUse use = use_of(request.role);
-  Recording recording = Importer::at(request.format).run(folder, use, request.values, 0);
   const auto frames = chosen_frames(recording, request, folder);
+  check_whole(frames, use, folder);
   const Sizes sizes = sizes_of(frames.front(), recording, request);
   const auto calibration = calibration_for(recording, request, sizes, frames.front().depth);
   ImportReport report{request.role,
@@ -156,11 +155,12 @@ ImportReport import_recording(const fs::path& folder, const ImportRequest& asked
                       static_cast<int>(recording.frames.size()),
                       calibration.value_or(SensorCalibration{}),
                       calibration.has_value(),
-                      std::move(recording.notes)};
+                      recording.notes};
   const CaptureSession outline = merged_session(request, calibration, static_cast<int>(frames.size()), report.notes);
   NewFolder writer(session);
   if (!request.with.empty()) copy_images(request.with, writer.temporary());
-  write_frames(frames, request, recording.depth_per_m, sizes, writer.temporary());
+  write_frames(frames, recording, {writer.temporary(), request.role, request.sensor, use, sizes.color, sizes.depth},
+               folder, report.notes);
   finish_session(writer, outline);
   return report;
 }

@@ -6,12 +6,14 @@
 
 #include "scenes/capture_session.h"
 #include "scenes/registry.h"
+#include "scenes/session_depth.h"
 
 namespace dressform {
 
 // One moment of a recording. Paths of images; empty: not recorded.
 struct RecordedFrame {
   std::filesystem::path color, ir, depth;
+  double depth_per_m = 0;  // of this frame alone; 0: as the recording
 };
 
 // What another tool left in a folder, before any image but the first is opened.
@@ -19,13 +21,18 @@ struct Recording {
   SensorCalibration sensor;           // whose model is known in any case
   bool calibrated = false;            // whether the rest of `sensor` is
   bool prime_sense = false;           // 640 x 480 on colour's grid: PrimeSense's camera where nothing else is known
+  bool on_color_grid = false;         // depth was brought to colour's grid: one camera is both
   std::vector<RecordedFrame> frames;  // in order of time
   double depth_per_m = 1000;          // what depth images count in
+  std::string depth_scale_option;     // how to say it right: "--set import.depth_per_m"; empty: the format fixes it
+  std::vector<int> no_depth{65535};   // values of depth images that mean none, besides 0
+  DepthRange range;                   // where its sensor sees anything
+  std::string role, sensor_name;      // as the recording itself says; empty: it does not
   std::vector<std::string> notes;     // what was left out, and why
 };
 
 // What a recording is to be in a session, which decides what has to be there: a depth scan needs depth alone; a shot
-// of one moment needs infrared as well, and a calibration; boards need all three images, but no calibration.
+// of one moment needs colour as well, and a calibration; boards need all three images, but no calibration.
 enum class RecordingUse { scan, shot, boards };
 
 // Formats of recordings: import/<format>.cpp. Throws InputError naming the file that is missing or wrong.

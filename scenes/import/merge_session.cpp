@@ -6,6 +6,7 @@
 
 #include "scenes/calibration_json.h"
 #include "scenes/error.h"
+#include "scenes/session_limits.h"
 
 namespace dressform {
 namespace {
@@ -119,6 +120,8 @@ CaptureSession merged_session(const ImportRequest& request, const std::optional<
     session.prior->rotation_sigma_deg = request.rotation_sigma_deg;
     session.prior->translation_sigma_m = request.translation_sigma_m;
   }
+  if (session.prior)
+    if (const auto found = problem_with_prior(*session.prior)) throw InputError("--place", found->problem);
   check_allowed(session);
   note_what_is_missing(session, notes);
   return session;

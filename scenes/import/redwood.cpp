@@ -5,6 +5,7 @@
 #include "scenes/import/import.h"
 #include "scenes/import/stamped_files.h"
 #include "scenes/json_file.h"
+#include "scenes/session_limits.h"
 
 // Recordings of redwood-data.org and of Open3D's recorders: Choi et al., "A large dataset of object scans",
 // arXiv:1602.02481. depth/ holds 16-bit PNG, millimetres, on colour's grid; colour is in rgb/, image/, color/ or
@@ -22,9 +23,9 @@ Camera read_intrinsics(const fs::path& file) {
   camera.width = json.at("width").whole(1, 16384);
   camera.height = json.at("height").whole(1, 16384);
   camera.fx = matrix[0], camera.fy = matrix[4], camera.cx = matrix[6], camera.cy = matrix[7];
-  const bool pinhole = matrix[1] == 0 && matrix[2] == 0 && matrix[3] == 0 && matrix[5] == 0 && matrix[8] == 1;
-  if (!pinhole || !(camera.fx >= 1 && camera.fy >= 1))
+  if (matrix[1] != 0 || matrix[2] != 0 || matrix[3] != 0 || matrix[5] != 0 || matrix[8] != 1)
     json.at("intrinsic_matrix").fail("found no camera matrix; expected [fx, 0, 0, 0, fy, 0, cx, cy, 1]");
+  if (const auto found = problem_with(camera)) json.at("intrinsic_matrix").fail(found->field + ": " + found->problem);
   return camera;
 }
 
@@ -34,9 +35,9 @@ fs::path first_existing(const fs::path& folder, std::initializer_list<const char
   return {};
 }
 
-std::vector<StampedFile> synchronised(const NumberedFiles& depth, const fs::path& color_folder,
-                                      const StreamParams& params, const fs::path& depth_folder,
-                                      std::vector<std::string>& notes) {
+std::vector<DepthAndColor> synchronised(const NumberedFiles& depth, const fs::path& color_folder,
+                                        const StreamParams& params, const fs::path& depth_folder,
+                                        std::vector<std::string>& notes) {
   const NumberedFiles color = numbered_files(color_folder);
   if (!color.files.empty() && color.timed != depth.timed)
     throw InputError(color_folder.string(), "found names of another kind than in " + depth_folder.string() +
@@ -45,27 +46,35 @@ std::vector<StampedFile> synchronised(const NumberedFiles& depth, const fs::path
                        notes);
 }
 
+void read_frames(const fs::path& folder, const RecordingUse& use, const StreamParams& params, Recording& recording) {
+  const fs::path depth_folder = folder / "depth";
+  const NumberedFiles depth = numbered_files(depth_folder);
+  if (depth.files.empty()) throw InputError(depth_folder.string(), "found no images; expected depth frames");
+  const fs::path color = first_existing(folder, {"rgb", "image", "color", "colors"});
+  if (!color.empty()) {
+    for (const auto& [each, partner] : synchronised(depth, color, params, depth_folder, recording.notes))
+      recording.frames.push_back({partner.path, {}, each.path});
+    return;
+  }
+  if (use == RecordingUse::shot)
+    throw InputError((folder / "rgb").string(), "is missing; expected a folder of colour, which a shot needs");
+  for (const auto& each : depth.files) recording.frames.push_back({{}, {}, each.path});
+  recording.notes.push_back("no folder of colour: synchronisation was not checked");
+}
+
 Recording redwood(const fs::path& folder, const RecordingUse& use, const StreamParams& params) {
-  if (use != RecordingUse::scan) fail_without_infrared(folder);
+  if (use == RecordingUse::boards) fail_without_infrared(folder);
   Recording recording;
   recording.sensor.model = "kinect_v1";
   recording.prime_sense = true;
-  recording.depth_per_m = params.depth_per_m;
-  const fs::path depth_folder = folder / "depth";
-  NumberedFiles depth = numbered_files(depth_folder);
-  if (depth.files.empty()) throw InputError(depth_folder.string(), "found no images; expected depth frames");
-  const fs::path color = first_existing(folder, {"rgb", "image", "color", "colors"});
-  if (color.empty())
-    recording.notes.push_back("no folder of colour: synchronisation was not checked");
-  else
-    depth.files = synchronised(depth, color, params, depth_folder, recording.notes);
+  set_stream(recording, params);
+  read_frames(folder, use, params, recording);
   const fs::path intrinsics = first_existing(folder, {"intrinsic.json", "camera_intrinsic.json"});
   if (!intrinsics.empty()) {
     recording.sensor.model = "unknown";  // any sensor that a recorder of Open3D knows
     recording.sensor.ir = read_intrinsics(intrinsics);
     recording.calibrated = true;
   }
-  for (auto& each : depth.files) recording.frames.push_back({{}, {}, std::move(each.path)});
   return recording;
 }
 

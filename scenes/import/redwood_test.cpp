@@ -43,7 +43,7 @@ TEST_F(ImportRedwood, ByNumberWithIntrinsics) {
   EXPECT_EQ(camera.cy, 23.75);
   fs::remove_all(session_);
   write("camera_intrinsic.json",
-        R"({"width": 640, "height": 480, "intrinsic_matrix": [50.5, 0, 0, 0, 51.5, 0, 31.25, 23.75, 1]})");
+        R"({"width": 640, "height": 480, "intrinsic_matrix": [505, 0, 0, 0, 515, 0, 312.5, 237.5, 1]})");
   EXPECT_THAT(error(of("redwood")), HasSubstr("00000.png: found 64 x 48 pixels; expected 640 x 480"));
   write("camera_intrinsic.json", R"({"width": 64, "height": 48, "intrinsic_matrix": [50.5, 0, 31.25, 0]})");
   EXPECT_THAT(error(of("redwood")), HasSubstr("camera_intrinsic.json: intrinsic_matrix"));
@@ -66,6 +66,71 @@ TEST_F(ImportRedwood, Errors) {
   fs::remove(recording_ / "depth/0000003-000000010000.png");
   image("depth/first.png", ramp(kPrimeSense, 1, 0));
   EXPECT_THAT(error(of("redwood")), HasSubstr("first.png: found no number"));
+}
+
+// Depth of a wall at 1.5 m and a little further with every frame.
+cv::Mat wall(int frame) { return ramp(kPrimeSense, 1500 + frame, 0); }
+
+TEST_F(ImportRedwood, CodesForNoDepth) {
+  const cv::Rect hole(150, 100, 250, 100);
+  cv::Mat depth = wall(0);
+  depth(hole).setTo(65535);
+  image("depth/00000.png", depth);
+  cv::Mat frame = imported(of("redwood")).scans.at("scan_user").depth_mm[0];
+  EXPECT_EQ(cv::countNonZero(frame(hole)), 0);
+  EXPECT_EQ(cv::countNonZero(frame == 1500), 640 * 480 - hole.area());
+  EXPECT_THAT(report_.notes, testing::Contains(HasSubstr("8.14 % of the depth pixels have 65535")));
+  fs::remove_all(session_);
+  depth(hole).setTo(4095);
+  image("depth/00000.png", depth);
+  EXPECT_THAT(error(of("redwood")), HasSubstr("00000.png: found 4095 (0xFFF) in 25000 of 307200 pixels"));
+  ImportRequest request = of("redwood");
+  request.values["no_depth"] = std::string("4095");
+  frame = imported(request).scans.at("scan_user").depth_mm[0];
+  EXPECT_EQ(cv::countNonZero(frame(hole)), 0);
+}
+
+TEST_F(ImportRedwood, FramesThatRepeat) {
+  for (int i = 0; i < 4; ++i) image("depth/0000" + std::to_string(i) + ".png", wall(i));
+  imported(of("redwood"));
+  EXPECT_THAT(report_.notes, testing::Not(testing::Contains(HasSubstr("identical"))));
+  fs::remove_all(session_);
+  for (int i : {2, 3}) image("depth/0000" + std::to_string(i) + ".png", wall(1));
+  imported(of("redwood"));
+  EXPECT_THAT(report_.notes, testing::Contains(HasSubstr("2 of 4 depth frames are identical to an earlier one, bit for "
+                                                         "bit (00002.png is 00001.png)")));
+}
+
+TEST_F(ImportRedwood, CamerasThatCannotBe) {
+  image("depth/00000.png", wall(0));
+  const auto with = [&](const std::string& matrix) {
+    write("intrinsic.json", R"({"width": 640, "height": 480, "intrinsic_matrix": [)" + matrix + "]}");
+    return error(of("redwood"));
+  };
+  EXPECT_THAT(with("481.2, 0, 0, 0, -480, 0, 319.5, 239.5, 1"),
+              HasSubstr("intrinsic.json: intrinsic_matrix: fy: found -480 px; expected a positive focal length"));
+  EXPECT_THAT(with("481.2, 0, 0, 0, 480, 0, 959.5, 539.5, 1"), HasSubstr("cx: found a principal point at 959.5 px"));
+  EXPECT_THAT(with("481.2, 0, 319.5, 0, 480, 239.5, 0, 0, 1"), HasSubstr("found no camera matrix"));
+  fs::remove(recording_ / "intrinsic.json");
+  ImportRequest request = of("redwood");
+  request.camera = Camera{0, 0, 481.2, -480, 319.5, 239.5, {}};
+  EXPECT_THAT(error(request), HasSubstr("--camera: fy: found -480 px"));
+}
+
+// Depth on colour's grid makes a shot without infrared.
+TEST_F(ImportRedwood, AShotOfColourAndDepth) {
+  image("depth/00000.png", wall(0));
+  EXPECT_THAT(error(of("redwood", "naked")), HasSubstr("rgb: is missing"));
+  image("rgb/00000.png", cv::Mat(kPrimeSense, CV_8UC3, cv::Scalar(1, 2, 3)));
+  const CaptureSession session = imported(of("redwood", "naked"));
+  EXPECT_TRUE(session.naked.at("k1").ir.empty());
+  EXPECT_EQ(session.naked.at("k1").color.at<cv::Vec3b>(9, 9), cv::Vec3b(1, 2, 3));
+  const SensorCalibration& sensor = session.calibration->sensors.at("k1");
+  EXPECT_EQ(sensor.color->fx, sensor.ir.fx);
+  EXPECT_TRUE(sensor.color_from_ir.isApprox(Isometry3d::Identity()));
+  fs::remove_all(session_);
+  image("rgb/00000.png", cv::Mat(cv::Size(1280, 960), CV_8UC3, cv::Scalar(1, 2, 3)));
+  EXPECT_THAT(error(of("redwood", "naked")), HasSubstr("expected depth on colour's grid, so images of one size"));
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <regex>
+#include <sstream>
 #include <tuple>
 
 #include "scenes/error.h"
@@ -37,6 +39,20 @@ NumberedName numbered_name(const fs::path& path) {
   return name;
 }
 
+// One line of a list: stamp and path.
+StampedFile listed_file(const fs::path& folder, const std::string& where, const std::string& line) {
+  std::istringstream words(line);
+  StampedFile file;
+  std::string path;
+  if (!(words >> file.stamp_s >> path) || !std::isfinite(file.stamp_s))
+    throw InputError(where, "found \"" + line + "\"; expected a stamp and a path");
+  const fs::path relative = fs::path(path).lexically_normal();
+  if (relative.is_absolute() || *relative.begin() == "..")
+    throw InputError(where, "found \"" + path + "\"; expected a path inside the recording");
+  file.path = folder / relative;
+  return file;
+}
+
 }  // namespace
 
 NumberedFiles numbered_files(const fs::path& folder) {
@@ -64,6 +80,27 @@ NumberedFiles numbered_files(const fs::path& folder) {
   return result;
 }
 
+std::vector<StampedFile> listed_files(const fs::path& folder, const std::string& name, double unit_s) {
+  const fs::path file = folder / name;
+  std::ifstream in(file);
+  if (!in || fs::is_directory(file))
+    throw InputError(file.string(), "is missing; expected a list of stamps and images");
+  std::vector<StampedFile> files;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
+    if (line.empty() || line[0] == '#') continue;
+    const std::string where = file.string() + ":" + std::to_string(number);
+    files.push_back(listed_file(folder, where, line));
+    files.back().stamp_s *= unit_s;
+    if (files.size() > 1 && files.back().stamp_s <= files[files.size() - 2].stamp_s)
+      throw InputError(where, fmt::format("found stamp {:.6f} after {:.6f}; expected stamps that increase",
+                                          files.back().stamp_s, files[files.size() - 2].stamp_s));
+  }
+  if (files.empty()) throw InputError(file.string(), "found no images; expected a line for each");
+  return files;
+}
+
 std::vector<std::pair<int, int>> associate(const std::vector<StampedFile>& a, const std::vector<StampedFile>& b,
                                            double tolerance_s) {
   std::vector<std::tuple<double, int, int>> close;
@@ -85,8 +122,9 @@ std::vector<std::pair<int, int>> associate(const std::vector<StampedFile>& a, co
   return pairs;
 }
 
-std::vector<StampedFile> with_partners(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& color,
-                                       double tolerance_s, const std::string& where, std::vector<std::string>& notes) {
+std::vector<DepthAndColor> with_partners(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& color,
+                                         double tolerance_s, const std::string& where,
+                                         std::vector<std::string>& notes) {
   const auto pairs = associate(depth, color, tolerance_s);
   const std::string near = tolerance_s > 0 ? fmt::format("colour frame within {:g} ms", 1000 * tolerance_s)
                                            : std::string("colour frame of the same number");
@@ -97,15 +135,22 @@ std::vector<StampedFile> with_partners(const std::vector<StampedFile>& depth, co
   if (pairs.size() < depth.size())
     notes.push_back(
         fmt::format("{} of {} depth frames left out: no {}", depth.size() - pairs.size(), depth.size(), near));
-  std::vector<StampedFile> kept;
-  for (const auto& pair : pairs) kept.push_back(depth[pair.first]);
+  std::vector<DepthAndColor> kept;
+  for (const auto& pair : pairs) kept.push_back({depth[pair.first], color[pair.second]});
   return kept;
+}
+
+void set_stream(Recording& recording, const StreamParams& params) {
+  recording.on_color_grid = true;
+  recording.depth_per_m = params.depth_per_m;
+  recording.depth_scale_option = "--set import.depth_per_m";
+  recording.no_depth = {65535, params.no_depth};
 }
 
 void fail_without_infrared(const fs::path& recording) {
   throw InputError(recording.string(),
-                   "found no infrared images, which this format does not know and a session's "
-                   "shots and boards need; expected --role scan_naked or scan_user");
+                   "found no infrared images, which this format does not know and boards are found in; expected --role "
+                   "naked, dressed, scan_naked or scan_user");
 }
 
 }  // namespace dressform

@@ -5,7 +5,7 @@ file(GLOB_RECURSE versioned CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scenes/*.h ${C
      ${CMAKE_SOURCE_DIR}/synthetic/*.h ${CMAKE_SOURCE_DIR}/synthetic/*.cpp
      ${CMAKE_SOURCE_DIR}/render/*.h ${CMAKE_SOURCE_DIR}/render/*.cpp
      ${CMAKE_SOURCE_DIR}/eval/*.h ${CMAKE_SOURCE_DIR}/eval/*.cpp)
-list(FILTER versioned EXCLUDE REGEX "(_test|_bench)\\.cpp$|/testing/")
+list(FILTER versioned EXCLUDE REGEX "(_test|_bench|_fuzz)\\.cpp$|/testing/")
 set(code_versions ${CMAKE_BINARY_DIR}/generated/code_versions.inc)
 add_custom_command(
   OUTPUT ${code_versions}

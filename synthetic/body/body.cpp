@@ -11,6 +11,7 @@
 #include "synthetic/body/figure_solver.h"
 #include "synthetic/body/section.h"
 #include "synthetic/geometry/contour.h"
+#include "synthetic/geometry/mending.h"
 
 namespace dressform {
 namespace {
@@ -66,10 +67,45 @@ Body procedural_body(const BodySpec& spec) {
   }
 }
 
+// How far a box is from that of a standing person; infinite where it cannot be one.
+double misfit_of_person(const Box& box) {
+  constexpr double kSmallest_m = 0.5, kTallest_m = 2.5, kUsual_m = 1.7;  // a small child to a giant
+  constexpr double kWidest = 1.3, kDeepest = 0.8;                        // of the height: arms held out, a bent knee
+  const Vector3d size = box.sizes();
+  const bool stands = size.y() >= kSmallest_m && size.y() <= kTallest_m && size.x() <= kWidest * size.y() &&
+                      size.z() <= kDeepest * size.y();
+  return stands ? std::abs(size.y() - kUsual_m) + std::abs(box.min().y()) : INFINITY;
+}
+
+void check_place(const Mesh& mesh, const BodySpec& spec) {
+  const Box box = bounding_box(mesh);
+  const std::string where = spec.mesh.string();
+  if (!std::isfinite(misfit_of_person(box)))
+    throw InputError(where,
+                     fmt::format("found a body {:.3g} m high (y), {:.3g} wide (x) and {:.3g} deep (z); expected a "
+                                 "standing person of 0.5 to 2.5 m, in metres with y up{}",
+                                 box.sizes().y(), box.sizes().x(), box.sizes().z(),
+                                 likely_frame(box, spec.frame, misfit_of_person)));
+  constexpr double kOnFloor_m = 0.03;  // soles of shoes, and scans that sink in
+  const double low = box.min().y();
+  if (std::abs(low) > kOnFloor_m)
+    throw InputError(where,
+                     fmt::format("stands {:.3f} m {} the floor (its lowest point is at y = {:.3f} m); expected feet "
+                                 "at y = 0 within {} m; say lift_m = {:.3f} for it and for its clothes",
+                                 std::abs(low), low < 0 ? "below" : "above", low, kOnFloor_m, spec.frame.lift_m - low));
+}
+
+Body own_body(const BodySpec& spec) {
+  const std::string where = spec.mesh.string();
+  const Mesh mesh = in_world(read_mesh(spec.mesh), spec.frame);
+  check_place(mesh, spec);
+  return measure_body(mended({mesh, {}, {}}, where).textured.mesh, where);
+}
+
 }  // namespace
 
 Body make_body(const BodySpec& spec) {
-  if (!spec.mesh.empty()) return measure_body(read_mesh(spec.mesh), spec.mesh.string());
+  if (!spec.mesh.empty()) return own_body(spec);
   return procedural_body(drawn_customer(spec));
 }
 

@@ -21,7 +21,8 @@ struct Body {
 };
 
 // The procedural mannequin (girths solved to within 1 mm), or the scene's own mesh with landmarks measured from it.
-// Throws InputError for measures no body can have, or a mesh that is not closed.
+// Throws InputError for measures no body can have, a mesh that is not closed, or one that no person in metres, y up and
+// on the floor y = 0 can be: with what was found and which unit or axis it looks like.
 Body make_body(const BodySpec& spec);
 
 // Tape girth: length of the convex hull of the torso's section at height y (arms left out), metres.

@@ -60,7 +60,6 @@ BodyLandmarks find_landmarks(const Mesh& mesh, const std::string& where) {
   BodyLandmarks marks;
   for (const Vector3d& v : mesh.vertices) marks.stature = std::max(marks.stature, v.y());
   const double h = marks.stature;
-  if (h < 0.5 || h > 3) throw InputError(where, fmt::format("found a body {:.2f} high; expected metres, y up", h));
   marks.crotch = find_crotch(mesh, h, where);
   marks.armpit = find_armpit(mesh, h);
   const double trunk = marks.armpit - marks.crotch;
@@ -148,13 +147,25 @@ std::map<std::string, Vector3d> find_joints(const Mesh& mesh, const BodyLandmark
   return joints;
 }
 
+// Where the first edge lies that has one triangle or more than two.
+std::string first_open_place(const Mesh& mesh) {
+  std::map<std::pair<int, int>, int> count;
+  for (const Vector3i& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++count[std::minmax(t[k], t[(k + 1) % 3])];
+  for (const auto& [edge, triangles] : count) {
+    const Vector3d place = 0.5 * (mesh.vertices[edge.first] + mesh.vertices[edge.second]);
+    if (triangles != 2) return fmt::format("({:.3f}, {:.3f}, {:.3f}) m", place.x(), place.y(), place.z());
+  }
+  return "no place";
+}
+
 }  // namespace
 
 Body measure_body(Mesh mesh, const std::string& where) {
   const Topology shape = topology(mesh);
   if (!shape.closed())
-    throw InputError(where, fmt::format("found {} open and {} overused edges; expected a closed body",
-                                        shape.boundary_edges, shape.non_manifold_edges));
+    throw InputError(where, fmt::format("found {} open and {} overused edges, the first at {}; expected a closed body",
+                                        shape.boundary_edges, shape.non_manifold_edges, first_open_place(mesh)));
   Body body;
   body.landmarks = find_landmarks(mesh, where);
   body.joints = find_joints(mesh, body.landmarks);

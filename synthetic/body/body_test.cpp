@@ -1,5 +1,6 @@
 #include "synthetic/body/body.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -167,6 +168,38 @@ TEST(Body, OwnMeshMustBeClosed) {
   BodySpec spec;
   spec.mesh = file;
   EXPECT_THROW(make_body(spec), InputError);
+}
+
+TEST(Body, OwnMeshInAnotherUnitOrPlaceIsNamedAndMended) {
+  const Mesh standing = make_body({}).mesh;
+  const auto file = std::filesystem::path(testing::TempDir()) / "body_elsewhere.ply";
+  BodySpec spec;
+  spec.mesh = file;
+  const auto refused = [&](const Eigen::Matrix3d& motion, double lift_m) {
+    Mesh mesh = standing;
+    for (Vector3d& v : mesh.vertices) v = (motion * (v + Vector3d(0, lift_m, 0))).eval();
+    write_ply(file, mesh);
+    try {
+      make_body(spec);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d z_up;
+  z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  EXPECT_EQ(refused(same, 0), "");
+  EXPECT_THAT(refused(same, -0.2), testing::HasSubstr("body_elsewhere.ply: stands 0.200 m below the floor"));
+  EXPECT_THAT(refused(same, 0.15), testing::HasSubstr("lift_m = -0.150"));
+  EXPECT_THAT(refused(100 * same, 0), testing::HasSubstr("centimetres with y up"));
+  EXPECT_THAT(refused(1000 * same, 0), testing::HasSubstr("millimetres with y up"));
+  EXPECT_THAT(refused(10 * same, 0), testing::HasSubstr("decimetres with y up"));
+  EXPECT_THAT(refused(same / 0.0254, 0), testing::HasSubstr("inches with y up"));
+  EXPECT_THAT(refused(z_up, 0), testing::HasSubstr("metres with z up"));
+  spec.frame = {"cm", "z", 0.2};
+  EXPECT_EQ(refused(100 * z_up, -0.2), "");
+  EXPECT_NEAR(make_body(spec).landmarks.stature, 1.85, 1e-6);
 }
 
 }  // namespace

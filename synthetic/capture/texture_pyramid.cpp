@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "scenes/error.h"
+#include "scenes/srgb.h"
 
 namespace dressform {
 namespace {
@@ -43,15 +44,6 @@ cv::Mat to_srgb(const cv::Mat& linear) {
 }
 
 }  // namespace
-
-float linear_from_srgb(float value) {
-  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
-float srgb_from_linear(float value) {
-  value = std::clamp(value, 0.0f, 1.0f);
-  return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
-}
 
 TexturePyramid::TexturePyramid(const cv::Mat& texture) {
   if (texture.empty() || texture.type() != CV_8UC3)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "scenes/mesh.h"
+#include "scenes/srgb.h"
 
 namespace dressform {
 
@@ -23,9 +24,5 @@ class TexturePyramid {
   Vector3f bilinear(int level, const Vector2f& uv) const;
   std::vector<cv::Mat> levels_;
 };
-
-// sRGB transfer of one value in 0-1.
-float linear_from_srgb(float value);
-float srgb_from_linear(float value);
 
 }  // namespace dressform

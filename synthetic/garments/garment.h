@@ -15,8 +15,10 @@ struct Garment {
   std::vector<double> rest_m;  // procedural: lengths at rest of the edges, in the order of features_of()
 };
 
-// The procedural garment on the body, or the scene's own mesh placed as given. `inner` are garments worn beneath it
-// (the trousers under a shirt): the new one stays outside them.
+// The procedural garment on the body, or the scene's own mesh placed as given: seams joined, what is sewn on kept as
+// pieces of their own (synthetic/geometry/mending.h), the rims those of its largest piece. `inner` are garments worn
+// beneath it (the trousers under a shirt): a procedural one stays outside them. Throws InputError naming the mesh's
+// file where it lies nowhere near the body, or has not the openings of its kind.
 Garment make_garment(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed);
 
 }  // namespace dressform

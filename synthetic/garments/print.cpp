@@ -6,6 +6,7 @@
 
 #include "scenes/error.h"
 #include "scenes/random.h"
+#include "synthetic/garments/weave.h"
 
 namespace dressform {
 namespace {
@@ -219,41 +220,6 @@ void paint_text(Canvas& canvas) {
     draw_text(canvas, {canvas.middle().x, canvas.middle().y - canvas.pixels(0.06)}, 0.08, canvas.color(1));
 }
 
-// Gaussian noise of unit deviation, smooth over `grain_px` across and down.
-cv::Mat smooth_noise(const cv::Size& size, double across_px, double down_px, Seed seed, std::uint64_t stream) {
-  const int w = std::max(2, static_cast<int>(std::ceil(size.width / across_px)) + 1);
-  const int h = std::max(2, static_cast<int>(std::ceil(size.height / down_px)) + 1);
-  cv::Mat coarse(h, w, CV_32F);
-  float* values = coarse.ptr<float>();
-  const size_t count = static_cast<size_t>(w) * h;
-  for (size_t i = 0; i < count; i += 4) {
-    const auto n = normal4(seed, stream, i / 4);
-    for (size_t k = 0; k < 4 && i + k < count; ++k) values[i + k] = static_cast<float>(n[k]);
-  }
-  cv::Mat fine;
-  cv::resize(coarse, fine, size, 0, 0, cv::INTER_LINEAR);
-  return fine;
-}
-
-// Brightness of the weave: yarns of uneven thickness both ways and a slow unevenness of the dye, about 1.
-cv::Mat weave(const Canvas& canvas, double yarn_contrast, double dye_contrast) {
-  const cv::Size size = canvas.image.size();
-  const double px = canvas.pixels_per_m;
-  const auto grain = [&](double across_m, double down_m, const char* name) {
-    return smooth_noise(size, std::max(1.0, across_m * px), std::max(1.0, down_m * px), canvas.seed, stream_of(name));
-  };
-  cv::Mat factor = grain(0.001, 0.020, "warp") + grain(0.020, 0.001, "weft");
-  factor = 1 + 0.7 * yarn_contrast * factor + dye_contrast * grain(0.05, 0.06, "dye");
-  return factor;
-}
-
-void modulate(cv::Mat& image, const cv::Mat& factor) {
-  cv::Mat three, values;
-  cv::merge(std::vector<cv::Mat>{factor, factor, factor}, three);
-  image.convertTo(values, CV_32F);
-  cv::Mat(values.mul(three)).convertTo(image, CV_8U);
-}
-
 // Random patches in all colours, large ones over fine ones.
 void paint_noise(Canvas& canvas) {
   const cv::Size size = canvas.image.size();
@@ -298,8 +264,7 @@ cv::Mat paint_print(const PrintSpec& spec, double width_m, double height_m, doub
   const cv::Size size(std::max(1, cvCeil(width_m * pixels_per_m)), std::max(1, cvCeil(height_m * pixels_per_m)));
   canvas.image = cv::Mat(size, CV_8UC3, canvas.colors[0]);
   kind->paint(canvas);
-  modulate(canvas.image, weave(canvas, kind->yarn_contrast, kind->dye_contrast));
-  return canvas.image;
+  return woven(canvas.image, pixels_per_m, kind->yarn_contrast, kind->dye_contrast, seed);
 }
 
 }  // namespace dressform

@@ -71,112 +71,147 @@ Field field_of(const Tube& tube) {
   return [tube](const Vector3d& p) { return tube.field(p); };
 }
 
+// What a shirt is put together from.
+struct ShirtParts {
+  GarmentSpec spec;
+  BodyLandmarks landmarks;
+  double hem_y = 0;
+  Tube torso, left, right;
+  double left_cuff = 0, right_cuff = 0;  // along the arms
+  Underarm left_gap, right_gap;
+  std::shared_ptr<const Hood> hood;  // null: none
+
+  const Tube& sleeve(const Vector3d& p) const { return p.x() > 0 ? left : right; }
+
+  // Positive where a place belongs to the sleeve rather than the torso: by the cloth, and beside the gap by the body.
+  double sleeve_over_torso(const Vector3d& p) const {
+    const double by_cloth = torso.field(p) - sleeve(p).field(p);
+    const Underarm& gap = p.x() > 0 ? left_gap : right_gap;
+    if (!gap.start_y()) return by_cloth;
+    const double t = std::clamp((*gap.start_y() - p.y()) / 0.02, 0.0, 1.0);
+    return by_cloth + t * (gap.nearer_to_arm(p) - by_cloth);
+  }
+
+  // Part by which the trunk is cut wider than it lies: from under the arms down, a dress most at its hem.
+  double wider(double y) const {
+    const BodyLandmarks& m = landmarks;
+    const double flare = spec.kind == "dress" ? spec.flare : 0, hip = m.hip + 0.05;
+    const double loose_to = spec.tucked ? m.waist + 0.06 : -1;  // below, what is worn over it holds it smooth
+    if (y < loose_to) return 0.0;
+    return spec.fullness * std::clamp((m.armpit + 0.02 - y) / 0.10, 0.0, 1.0) +
+           flare * std::clamp((hip - y) / std::max(0.1, hip - hem_y), 0.0, 1.1);
+  }
+
+  // A tucked shirt is longer above the waist than the way it goes: it hangs over.
+  double longer(double y) const {
+    return spec.tucked ? kBlouse * std::max(0.0, 1 - std::abs(y - landmarks.waist - 0.08) / 0.08) : 0.0;
+  }
+};
+using Parts = std::shared_ptr<const ShirtParts>;
+
+Parts shirt_parts(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner) {
+  const double hem_y = hem_height(spec, body.landmarks);
+  const ClothRows trunk = taut_torso(body, inner, hem_y);
+  const double left_cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, 1);
+  const double right_cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, -1);
+  const ClothRows left_arm = taut_sleeve(body, 1, left_cuff), right_arm = taut_sleeve(body, -1, right_cuff);
+  return std::make_shared<const ShirtParts>(ShirtParts{
+      spec, body.landmarks, hem_y, shirt_torso(spec, body, trunk).tube(), shirt_sleeve(spec, left_arm).tube(),
+      shirt_sleeve(spec, right_arm).tube(), left_cuff, right_cuff,
+      Underarm(trunk.tube(), left_arm.tube(), 1, left_cuff), Underarm(trunk.tube(), right_arm.tube(), -1, right_cuff),
+      spec.collar == "hood" ? std::make_shared<const Hood>(body, spec.neck_depth_m) : nullptr});
+}
+
+Field solid(const Parts& parts, const Field& trunk_cloth, const Field& left_sleeve, const Field& right_sleeve) {
+  return parts->right_gap.parted(parts->left_gap.parted([=](const Vector3d& p) {
+    const double sleeve = p.x() > 0 ? left_sleeve(p) : right_sleeve(p);
+    const double shirt = smooth_union(trunk_cloth(p), sleeve, 0.028);
+    return parts->hood ? smooth_union(shirt, parts->hood->field(p), 0.04) : shirt;
+  }));
+}
+
+Eigen::AlignedBox3d box_of(const ShirtParts& parts) {
+  const Vector3d left = parts.left.point(parts.left.s_max(), 0, 0),
+                 right = parts.right.point(parts.right.s_max(), 0, 0);
+  const double reach = std::max(std::abs(left.x()), std::abs(right.x()));
+  return {Vector3d(-reach - 0.12, std::min({parts.torso.s_min(), left.y(), right.y()}) - 0.06, -0.40),
+          Vector3d(reach + 0.12, std::max(parts.torso.s_max(), parts.hood ? parts.hood->top() : 0) + 0.02, 0.40)};
+}
+
+void cut_neck(const Parts& parts, GarmentShape& shape) {
+  const GarmentSpec& spec = parts->spec;
+  if (parts->hood) {
+    shape.cuts.push_back({"neck", [hood = parts->hood](const Vector3d& p) { return hood->opening(p); }});
+  } else if (spec.collar == "polo") {
+    shape.collar = CollarCut{collar_seam(parts->landmarks, parts->torso)};
+    shape.cuts.push_back({"neck", [seam = shape.collar->seam, slit = collar_slit(parts->landmarks, spec.neck_depth_m)](
+                                      const Vector3d& p) { return std::max(seam(p), slit(p)); }});
+  } else {
+    shape.cuts.push_back({"neck", neckline(spec, parts->landmarks)});
+  }
+}
+
+void cut_cuffs_and_hem(const Parts& parts, const Body& body, Seed seed, GarmentShape& shape) {
+  for (const double side : {1.0, -1.0}) {
+    const Tube::Frame frame = arm_frame(body, side);
+    const double end = side > 0 ? parts->left_cuff : parts->right_cuff;
+    shape.cuts.push_back({side > 0 ? "left_cuff" : "right_cuff", [=](const Vector3d& p) {
+                            if (p.x() * side < 0) return -1.0;
+                            return std::min((p - frame.origin).dot(frame.axis) - end, parts->sleeve_over_torso(p));
+                          }});
+  }
+  const double slant = 0.02 * (2 * uniform(seed, stream_of("shirt hem"), 0) - 1);
+  shape.cuts.push_back({"hem", [=](const Vector3d& p) {
+                          const double edge = parts->hem_y + slant * p.x() + (parts->spec.hem_slant - 0.05) * p.z();
+                          return std::min(edge - p.y(), -parts->sleeve_over_torso(p));
+                        }});
+}
+
+// `draw`: by how much a rib along the neck draws it in.
+Fullness shirt_fullness(const Parts& parts, double draw, const Level& beyond_neck) {
+  return [=](const Vector3d& p) -> Eigen::Matrix3d {
+    const double rib = std::clamp(1 + beyond_neck(p) / kRib, 0.0, 1.0);
+    if (rib > 0) return (1 - draw * rib) * Eigen::Matrix3d::Identity();
+    if (parts->sleeve_over_torso(p) < 0) {
+      Eigen::Matrix3d cloth = wider_round(Vector3d::UnitY(), parts->wider(p.y()));
+      cloth(1, 1) += parts->longer(p.y());
+      return cloth;
+    }
+    // A sleeve is wider from below the shoulder.
+    const Tube& tube = parts->sleeve(p);
+    return wider_round(tube.frame().axis,
+                       0.5 * parts->spec.fullness * std::clamp((tube.polar(p)[0] - 0.06) / 0.08, 0.0, 1.0));
+  };
+}
+
 }  // namespace
 
 GarmentShape shirt_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
   if (spec.kind == "dress" && spec.length > 1)
     throw InputError("garment.length", fmt::format("found {} on a dress; expected 1 at most", spec.length));
-  const BodyLandmarks& m = body.landmarks;
-  const double hem_y = hem_height(spec, m);
-  const ClothRows trunk = taut_torso(body, inner, hem_y);
-  const Tube torso = shirt_torso(spec, body, trunk).tube();
-  const double cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, 1);
-  const double right_cuff = std::clamp(spec.sleeve, 0.1, 1.0) * arm_length(body, -1);
-  const ClothRows left_arm = taut_sleeve(body, 1, cuff), right_arm = taut_sleeve(body, -1, right_cuff);
-  const Tube left = shirt_sleeve(spec, left_arm).tube();
-  const Tube right = shirt_sleeve(spec, right_arm).tube();
-  const Underarm left_gap(trunk.tube(), left_arm.tube(), 1, cuff);
-  const Underarm right_gap(trunk.tube(), right_arm.tube(), -1, right_cuff);
-
-  const auto hood = spec.collar == "hood" ? std::make_shared<const Hood>(body, spec.neck_depth_m) : nullptr;
-
+  const Parts parts = shirt_parts(spec, body, inner);
+  const Field torso = field_of(parts->torso), left = field_of(parts->left), right = field_of(parts->right);
   GarmentShape shape;
-  const auto joined = [&](const Field& trunk_cloth, const Field& left_sleeve, const Field& right_sleeve) {
-    return right_gap.parted(left_gap.parted([=](const Vector3d& p) {
-      const double sleeve = p.x() > 0 ? left_sleeve(p) : right_sleeve(p);
-      const double shirt = smooth_union(trunk_cloth(p), sleeve, 0.028);
-      return hood ? smooth_union(shirt, hood->field(p), 0.04) : shirt;
-    }));
-  };
-  const Field torso_field = field_of(torso), left_field = field_of(left), right_field = field_of(right);
-  shape.field = joined(torso_field, left_field, right_field);
-  shape.parted = joined(right_gap.trunk_side(left_gap.trunk_side(torso_field)), left_gap.arm_side(left_field),
-                        right_gap.arm_side(right_field));
-  const double reach =
-      std::max(std::abs(left.point(left.s_max(), 0, 0).x()), std::abs(right.point(right.s_max(), 0, 0).x()));
-  shape.box = {
-      Vector3d(
-          -reach - 0.12,
-          std::min({torso.s_min(), left.point(left.s_max(), 0, 0).y(), right.point(right.s_max(), 0, 0).y()}) - 0.06,
-          -0.40),
-      Vector3d(reach + 0.12, std::max(torso.s_max(), hood ? hood->top() : 0) + 0.02, 0.40)};
-
-  // Positive where a place belongs to the sleeve rather than the torso: by the cloth, and beside the gap by the body.
-  const auto sleeve_over_torso = [=](const Vector3d& p) {
-    const double by_cloth = torso.field(p) - (p.x() > 0 ? left.field(p) : right.field(p));
-    const Underarm& gap = p.x() > 0 ? left_gap : right_gap;
-    if (!gap.start_y()) return by_cloth;
-    const double t = std::clamp((*gap.start_y() - p.y()) / 0.02, 0.0, 1.0);
-    return by_cloth + t * (gap.nearer_to_arm(p) - by_cloth);
-  };
-  if (hood) {
-    shape.cuts.push_back({"neck", [hood](const Vector3d& p) { return hood->opening(p); }});
-  } else if (spec.collar == "polo") {
-    shape.collar = CollarCut{collar_seam(m, torso)};
-    shape.cuts.push_back({"neck", [seam = shape.collar->seam, slit = collar_slit(m, spec.neck_depth_m)](
-                                      const Vector3d& p) { return std::max(seam(p), slit(p)); }});
-  } else {
-    shape.cuts.push_back({"neck", neckline(spec, m)});
-  }
-  for (const double side : {1.0, -1.0}) {
-    const Tube::Frame frame = arm_frame(body, side);
-    const double end = side > 0 ? cuff : right_cuff;
-    shape.cuts.push_back({side > 0 ? "left_cuff" : "right_cuff", [=](const Vector3d& p) {
-                            if (p.x() * side < 0) return -1.0;
-                            return std::min((p - frame.origin).dot(frame.axis) - end, sleeve_over_torso(p));
-                          }});
-  }
-  const double slant = 0.02 * (2 * uniform(seed, stream_of("shirt hem"), 0) - 1);
-  shape.cuts.push_back({"hem", [=](const Vector3d& p) {
-                          const double edge = hem_y + slant * p.x() + (spec.hem_slant - 0.05) * p.z();
-                          return std::min(edge - p.y(), -sleeve_over_torso(p));
-                        }});
-
-  // The trunk is wider from under the arms down, a dress most at its hem, a sleeve from below the shoulder.
-  const double flare = spec.kind == "dress" ? spec.flare : 0, hip = m.hip + 0.05;
-  const double loose_to = spec.tucked ? m.waist + 0.06 : -1;  // below, what is worn over it holds it smooth
-  const auto wider = [=](double y) {
-    if (y < loose_to) return 0.0;
-    return spec.fullness * std::clamp((m.armpit + 0.02 - y) / 0.10, 0.0, 1.0) +
-           flare * std::clamp((hip - y) / std::max(0.1, hip - hem_y), 0.0, 1.1);
-  };
-  // A tucked shirt is longer above the waist than the way it goes: it hangs over.
-  const auto longer = [=](double y) {
-    return spec.tucked ? kBlouse * std::max(0.0, 1 - std::abs(y - m.waist - 0.08) / 0.08) : 0.0;
-  };
+  shape.field = solid(parts, torso, left, right);
+  shape.parted = solid(parts, parts->right_gap.trunk_side(parts->left_gap.trunk_side(torso)),
+                       parts->left_gap.arm_side(left), parts->right_gap.arm_side(right));
+  shape.box = box_of(*parts);
+  cut_neck(parts, shape);
+  cut_cuffs_and_hem(parts, body, seed, shape);
   if (spec.tucked)
-    shape.held = [=](const Vector3d& p) { return std::min(m.waist - 0.02 - p.y(), -sleeve_over_torso(p)); };
+    shape.held = [parts](const Vector3d& p) {
+      return std::min(parts->landmarks.waist - 0.02 - p.y(), -parts->sleeve_over_torso(p));
+    };
   // A rib draws the neckline in, where no collar is sewn to it.
-  const double draw = shape.collar ? 0 : kRibDraw;
-  const Level beyond_neck = shape.cuts.front().beyond;
-  shape.fullness = [=](const Vector3d& p) -> Eigen::Matrix3d {
-    const double rib = std::clamp(1 + beyond_neck(p) / kRib, 0.0, 1.0);
-    if (rib > 0) return (1 - draw * rib) * Eigen::Matrix3d::Identity();
-    if (sleeve_over_torso(p) < 0) {
-      Eigen::Matrix3d cloth = wider_round(Vector3d::UnitY(), wider(p.y()));
-      cloth(1, 1) += longer(p.y());
-      return cloth;
-    }
-    const Tube& tube = p.x() > 0 ? left : right;
-    return wider_round(tube.frame().axis, 0.5 * spec.fullness * std::clamp((tube.polar(p)[0] - 0.06) / 0.08, 0.0, 1.0));
-  };
+  shape.fullness = shirt_fullness(parts, shape.collar ? 0 : kRibDraw, shape.cuts.front().beyond);
   // The sleeves are sewn on where they leave the torso, below the round of the shoulder.
-  const auto on_sleeve = [=](const Vector3d& p) {
-    const double along = p.x() > 0 ? left.polar(p)[0] : right.polar(p)[0];
-    return std::min(sleeve_over_torso(p), along - 0.045);
+  const auto on_sleeve = [parts](const Vector3d& p) {
+    return std::min(parts->sleeve_over_torso(p), parts->sleeve(p).polar(p)[0] - 0.045);
   };
-  add_shirt_panels({torso, left, right, kBack, m.armpit, m.neck + 0.05, wider, on_sleeve}, shape);
-  if (hood) add_hood_panels(*hood, collar_seam(m, torso), shape);
+  add_shirt_panels({parts->torso, parts->left, parts->right, kBack, parts->landmarks.armpit,
+                    parts->landmarks.neck + 0.05, [parts](double y) { return parts->wider(y); }, on_sleeve},
+                   shape);
+  if (parts->hood) add_hood_panels(*parts->hood, collar_seam(parts->landmarks, parts->torso), shape);
   return shape;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "scenes/random.h"
 #include "synthetic/garments/garment_shape.h"
@@ -59,6 +60,26 @@ ClothRows trouser_leg(const GarmentSpec& spec, const Body& body, double side, do
   return no_smaller(displaced(hung, height), least, 0.004);
 }
 
+// One leg with its half of the seat, cut out flat. `wider`: part by which it is cut wider than it lies, by height.
+ClothPiece leg_piece(const Tube& leg, const Tube& seat, double side, double crotch, double waist_y,
+                     const std::function<double(double y)>& wider) {
+  const ArcLength leg_arc(leg), seat_arc(seat);
+  // Across, both are measured from the outer seam: the seat's own zero is the front.
+  const double seat_side = side * M_PI / 2;
+  return {[=](const Vector3d& p, const Vector3d& near) {
+            const Vector3d on_leg = leg.polar(p), on_seat = seat.polar(p);
+            const double leg_angle = angle_near(on_leg[1], angle_near(leg.polar(near)[1], 0));
+            const double seat_angle = angle_near(on_seat[1], seat_side);
+            const double u_leg = leg_arc.at(std::min(p.y(), crotch), leg_angle);
+            const double y = std::max(p.y(), crotch);
+            const double u_seat = seat_arc.at(y, seat_angle) - seat_arc.at(y, seat_side);
+            double t = std::clamp((p.y() - crotch + 0.03) / 0.07, 0.0, 1.0);
+            t = t * t * (3 - 2 * t);
+            return Vector2d((1 + wider(p.y())) * (u_leg + t * (u_seat - u_leg)), waist_y + 0.03 - p.y());
+          },
+          false, false};
+}
+
 }  // namespace
 
 GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std::vector<Garment>& inner, Seed seed) {
@@ -108,26 +129,8 @@ GarmentShape trousers_shape(const GarmentSpec& spec, const Body& body, const std
     return cloth;
   };
   shape.held = [=](const Vector3d& p) { return p.y() - (waist_y - waist_slant * p.z() - 0.03); };
-  const ArcLength seat_arc(seat), left_arc(left), right_arc(right);
-  for (const double side : {1.0, -1.0}) {
-    const Tube leg = side > 0 ? left : right;
-    const ArcLength leg_arc = side > 0 ? left_arc : right_arc;
-    // Across, both are measured from the outer seam: the seat's own zero is the front.
-    const double seat_side = side * M_PI / 2;
-    shape.pieces.push_back({[=](const Vector3d& p, const Vector3d& near) {
-                              const Vector3d on_leg = leg.polar(p), on_seat = seat.polar(p);
-                              const double leg_angle = angle_near(on_leg[1], angle_near(leg.polar(near)[1], 0));
-                              const double seat_angle = angle_near(on_seat[1], seat_side);
-                              const double u_leg = leg_arc.at(std::min(p.y(), crotch), leg_angle);
-                              const double y = std::max(p.y(), crotch);
-                              const double u_seat = seat_arc.at(y, seat_angle) - seat_arc.at(y, seat_side);
-                              double t = std::clamp((p.y() - crotch + 0.03) / 0.07, 0.0, 1.0);
-                              t = t * t * (3 - 2 * t);
-                              return Vector2d((1 + wider(p.y())) * (u_leg + t * (u_seat - u_leg)),
-                                              waist_y + 0.03 - p.y());
-                            },
-                            false, false});
-  }
+  for (const double side : {1.0, -1.0})
+    shape.pieces.push_back(leg_piece(side > 0 ? left : right, seat, side, crotch, waist_y, wider));
   shape.seams.push_back([](const Vector3d& p) { return p.x(); });
   shape.piece_of = [](const Vector3d& p) { return p.x() > 0 ? 0 : 1; };
   return shape;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "scenes/devices/noise.h"
 #include "scenes/random.h"
 #include "synthetic/sensors/sensor_model.h"
 
@@ -44,12 +45,8 @@ void fields(V& v, FankhauserParams& p) {
   v("chrome_hole", p.chrome_hole, 0.0, 1.0, "", "part of the pixels on chrome that are holes");
 }
 
-// Axial sigma in mm (z in m, theta in rad).
-double sigma_mm(double z, double theta) {
-  theta = std::min(theta, 1.48);
-  const double rest = M_PI / 2 - theta;
-  return 1.5 - 0.5 * z + 0.3 * z * z + 0.1 * z * std::sqrt(z) * theta * theta / (rest * rest);
-}
+// The curve has no end at 90 degrees: nothing was measured beyond 85.
+double sigma_mm(double z_m, double theta_rad) { return fankhauser_sigma_mm(z_m, std::min(theta_rad, 1.48)); }
 
 // Unit normal noise per pixel. A 3 x 3 box over white noise has autocorrelation 2/3, 1/3, 0 along a row.
 class NoiseField {

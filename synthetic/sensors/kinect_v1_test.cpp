@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <set>
 
-#include "synthetic/sensors/noise_references.h"
+#include "scenes/devices/noise.h"
 #include "synthetic/sensors/noise_statistics.h"
 #include "synthetic/sensors/test_scenes.h"
 
@@ -23,7 +23,7 @@ SensorFrame shoot(const RayScene& scene, const FieldValues& values = {}, Seed se
 SensorSetup setup() { return {"kinect_v1", {}, kinect_v1()}; }
 
 TEST(KinectV1, The259LevelsBetweenOneAndFourMetres) {
-  const std::set<int> expected = kinect_v1_ladder(1000, 4000);
+  const std::set<int> expected = device_of("kinect_v1").levels_mm(1000, 4000);
   EXPECT_EQ(expected.size(), 259u);
   EXPECT_EQ(depth_levels(setup(), 1000, 4000), expected);
 }
@@ -32,7 +32,7 @@ TEST(KinectV1, StepsGrowWithTheSquareOfTheDistance) {
   const std::set<int> ladder = depth_levels(setup(), 1000, 4000);
   for (auto low = ladder.begin(), high = std::next(low); high != ladder.end(); ++low, ++high) {
     const double middle = 0.5 * (*low + *high);
-    EXPECT_NEAR(*high - *low, kinect_v1_step_mm(middle / 1000), 1.01);  // whole millimetres
+    EXPECT_NEAR(*high - *low, device_of("kinect_v1").step_mm(middle / 1000), 1.01);  // whole millimetres
   }
 }
 

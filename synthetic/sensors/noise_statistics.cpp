@@ -4,17 +4,9 @@
 #include <cmath>
 
 #include "synthetic/sensors/known_scenes.h"
-#include "synthetic/sensors/noise_references.h"
 
 namespace dressform {
 namespace {
-
-FieldValues those_it_has(const std::string& model, const FieldValues& values) {
-  FieldValues result;
-  for (const auto& field : SensorModel::at(model).fields)
-    if (const auto value = values.find(field.name); value != values.end()) result.insert(*value);
-  return result;
-}
 
 SensorFrame shoot(const SensorSetup& setup, const RayScene& scene, Seed seed = 1) {
   return measure_scene(scene, setup.model, setup.values, seed, 0, setup.camera);
@@ -50,9 +42,18 @@ class ErrorSum {
 
 }  // namespace
 
-Camera usual_camera(const std::string& model) {
-  if (model == "kinect_v1") return Camera{640, 480, 580, 580, 319.5, 239.5, {}};
-  return Camera{512, 424, 366, 366, 255.5, 211.5, {0.09, -0.27, 0, 0, 0.1}};
+const SensorDevice& device_of(const std::string& model) {
+  const SensorDevice* own = find_device(model);
+  return own ? *own : *find_device(SensorModel::default_variant());
+}
+
+Camera usual_camera(const std::string& model) { return device_of(model).ir_camera; }
+
+FieldValues those_it_has(const std::string& model, const FieldValues& values) {
+  FieldValues result;
+  for (const auto& field : SensorModel::at(model).fields)
+    if (const auto value = values.find(field.name); value != values.end()) result.insert(*value);
+  return result;
 }
 
 FieldValues noise_only(const std::string& model) {
@@ -84,9 +85,10 @@ DepthErrors of_plane(const SensorSetup& setup, double distance_m, double tilt_de
 
 DepthErrors of_plane_between_steps(const SensorSetup& setup, double distance_m, int seeds) {
   ErrorSum sum;
+  const double step_m = 1e-3 * device_of(setup.model).step_mm(distance_m);
   for (int seed = 1; seed <= seeds; ++seed)
     for (const double part : {0.0, 0.25, 0.5, 0.75}) {
-      const double z_m = distance_m + part * 1e-3 * kinect_v1_step_mm(distance_m);
+      const double z_m = distance_m + part * step_m;
       const SensorFrame frame = shoot(setup, scene_of(known_plane(z_m, 0, 0.9f)), static_cast<Seed>(seed));
       for (int y = 40; y < setup.camera.height - 40; y += 2)
         for (int x = 40; x < setup.camera.width - 40; x += 2)
@@ -157,15 +159,6 @@ std::set<int> depth_levels(const SensorSetup& setup, int from_mm, int to_mm) {
   for (int y = 0; y < depth.rows; ++y)
     for (int x = 0; x < depth.cols; ++x)
       if (const int z = depth.at<std::uint16_t>(y, x); z >= from_mm && z <= to_mm) levels.insert(z);
-  return levels;
-}
-
-std::set<int> kinect_v1_ladder(int from_mm, int to_mm) {
-  std::set<int> levels;
-  for (int n = -2000; n < 280; ++n) {
-    const double z = std::floor(1.0 / (1.0 / 1200 - n * 0.1042 / 36000));
-    if (z >= from_mm && z <= to_mm) levels.insert(static_cast<int>(z));
-  }
   return levels;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/devices/device.h"
 #include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
@@ -16,8 +17,14 @@ struct SensorSetup {
   Camera camera;
 };
 
-// Infrared camera of the real device at full size: 640 x 480 for kinect_v1, else that of a Kinect v2.
+// The real device that a sensor model stands for: the one of its own name, else the default model's. What it is held
+// to.
+const SensorDevice& device_of(const std::string& model);
+// Infrared camera of that device at full size.
 Camera usual_camera(const std::string& model);
+
+// Those of the values whose parameter the model has.
+FieldValues those_it_has(const std::string& model, const FieldValues& values);
 
 // Parameters of a model under which nothing but noise moves its depth; `without_noise` as well: what is left is the
 // decoding. Parameters that the model does not have are left out.
@@ -38,8 +45,8 @@ DepthErrors plane_errors(const cv::Mat& depth_mm, const Camera& camera, double d
                          int half_width, int half_height);
 // Shoots the plane and takes the window that suits the tilt.
 DepthErrors of_plane(const SensorSetup& setup, double distance_m, double tilt_deg, float nir_albedo, Seed seed = 1);
-// Over nearly the whole image, at distances a quarter of a ladder's step apart so that the steps' own width counts as
-// it does on average.
+// Of a device that can measure some depths only: over nearly the whole image, at distances a quarter of a step apart so
+// that the steps' own width counts as it does on average.
 DepthErrors of_plane_between_steps(const SensorSetup& setup, double distance_m, int seeds);
 // Over every third pixel of a facing plane.
 DepthErrors decoding_errors(const SensorSetup& setup, double distance_m);
@@ -56,7 +63,5 @@ double peak_to_peak(const std::map<double, double>& curve);
 
 // All depths between `from_mm` and `to_mm` that come out before a receding floor.
 std::set<int> depth_levels(const SensorSetup& setup, int from_mm, int to_mm);
-// The ladder of one Kinect v1: z = floor(1 / (1/1200 - n 0.1042/36000)).
-std::set<int> kinect_v1_ladder(int from_mm, int to_mm);
 
 }  // namespace dressform

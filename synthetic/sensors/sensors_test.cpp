@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "scenes/testing/variant_files.h"
+#include "synthetic/sensors/noise_statistics.h"
 #include "synthetic/sensors/test_scenes.h"
 
 namespace dressform {
@@ -28,8 +30,10 @@ double rms_mm(const SensorFrame& frame, double distance_m, double tilt_deg, int 
   return std::sqrt(sum / count);
 }
 
-TEST(Sensors, RegisteredModels) {
-  EXPECT_THAT(SensorModel::names(), testing::IsSupersetOf({"fankhauser", "ideal", "kinect_v1", "kinect_v2"}));
+TEST(Sensors, RegisteredModelsAreTheFiles) {
+  const auto files = variant_files(std::string(DRESSFORM_SOURCE_DIR) + "/synthetic/sensors");
+  EXPECT_THAT(SensorModel::names(), testing::ElementsAreArray(files));
+  EXPECT_NO_THROW(SensorModel::at(SensorModel::default_variant()));
 }
 
 TEST(Sensors, UnknownModelAndParameterAreInputErrors) {
@@ -191,10 +195,9 @@ TEST(Sensors, EveryModelGivesTheSameBytesForAnyThreadCount) {
 TEST(Sensors, EveryModelSurvivesAnEmptyWorld) {
   const RayScene nothing(std::vector<RaySurface>{});
   for (const auto& model : SensorModel::names()) {
-    // In the phase domain noise passes the driver's thresholds now and then.
-    const int allowed = model == "kinect_v2" ? 256 * 192 / 200 : 0;
-    const SensorFrame frame = measure(nothing, model, {}, 1, 0, Camera{256, 192, 183, 183, 127.5, 95.5, {}});
-    EXPECT_LE(cv::countNonZero(frame.depth_mm), allowed) << model;
+    const SensorFrame frame =
+        measure(nothing, model, without_noise(model), 1, 0, Camera{256, 192, 183, 183, 127.5, 95.5, {}});
+    EXPECT_EQ(cv::countNonZero(frame.depth_mm), 0) << model;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -75,10 +77,7 @@ double strain_quantile(const Cloth& cloth, const std::vector<Vector3d>& vertices
     const auto& e = cloth.features.edges[i];
     strain.push_back(std::abs((vertices[e[0]] - vertices[e[1]]).norm() / cloth.rest_m[i] - 1));
   }
-  if (strain.empty()) return 0;
-  const auto at = strain.begin() + static_cast<long>(part * static_cast<double>(strain.size() - 1));
-  std::nth_element(strain.begin(), at, strain.end());
-  return *at;
+  return strain.empty() ? 0 : lower_quantile(std::move(strain), part);
 }
 
 }  // namespace dressform

@@ -8,30 +8,17 @@
 #include <optional>
 
 #include "scenes/random.h"
+#include "synthetic/garments/drape/springs.h"
 
 namespace dressform {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kBodyReach = 0.015;  // how far from a vertex the body is looked for, m
 constexpr double kRoomUsed = 0.45;    // of a vertex's room; below a half
 // Of springs and hinges against their own motion, in parts of what moves them: one sweep a step does not satisfy all of
 // them, and what is left over must not come back as motion.
 constexpr double kDamping = 0.6;
 constexpr int kMostSteps = 100;  // between two searches
-
-struct Spring {
-  int a, b;
-  double first, rest, compliance;  // lengths: at the start, and the cloth's own
-};
-
-// Bends about an edge: the sum of weight * position over the edge's ends and the two corners opposite is zero where the
-// cloth is flat.
-struct Hinge {
-  std::array<int, 4> vertex;
-  std::array<double, 4> weight;
-  double compliance;
-};
 
 struct BodyContact {
   int vertex;
@@ -43,25 +30,16 @@ struct LayerContact {
   double keep_m;  // apart
 };
 
-double triangle_area(double a, double b, double c) {
-  const double s = 0.5 * (a + b + c);
-  return std::sqrt(std::max(1e-16, s * (s - a) * (s - b) * (s - c)));
-}
-
-// Cotangent of the angle opposite to `a` in a triangle with these sides.
-double cotangent(double a, double b, double c) {
-  return std::clamp((b * b + c * c - a * a) / (4 * triangle_area(a, b, c)), -10.0, 10.0);
-}
-
 class Drape {
  public:
   Drape(const Cloth& cloth, const Wearer& wearer, const DrapeParams& params, Seed seed)
       : cloth_(cloth), wearer_(wearer), params_(params), moving_(static_cast<int>(cloth.mesh.vertices.size())) {
     x_ = cloth.mesh.vertices;
     join_layer();
-    weigh();
-    add_springs();
-    add_hinges();
+    lightness_ = lightness_of(cloth);
+    springs_ = springs_of(cloth, params, lightness_);
+    hinges_ = hinges_of(cloth, params);
+    lightness_.resize(x_.size(), 0);
     for (double rest : cloth_.rest_m) mean_edge_m_ += rest / static_cast<double>(cloth_.rest_m.size());
     rest_place_ = x_;
     search();
@@ -102,64 +80,6 @@ class Drape {
     const Features layer = features_of(wearer_.layer.triangles);
     for (const auto& e : layer.edges) features_.edges.emplace_back(e[0] + moving_, e[1] + moving_);
     for (const Vector3i& t : layer.triangles) features_.triangles.push_back(t + Vector3i::Constant(moving_));
-  }
-
-  size_t edge_number(int a, int b) const {
-    if (a > b) std::swap(a, b);
-    const auto less = [](const Eigen::Vector2i& x, const std::pair<int, int>& y) { return std::pair(x[0], x[1]) < y; };
-    const auto& edges = cloth_.features.edges;
-    return std::lower_bound(edges.begin(), edges.end(), std::pair(a, b), less) - edges.begin();
-  }
-  double rest_length(int a, int b) const { return cloth_.rest_m[edge_number(a, b)]; }
-  double bending_part(int a, int b) const { return cloth_.bending.empty() ? 1 : cloth_.bending[edge_number(a, b)]; }
-
-  // Inverse masses of cloth that weighs 1 kg per square metre: all other constants are relative to that.
-  void weigh() {
-    std::vector<double> mass(moving_, 0);
-    for (const Vector3i& t : cloth_.mesh.triangles) {
-      const double area = triangle_area(rest_length(t[0], t[1]), rest_length(t[1], t[2]), rest_length(t[2], t[0]));
-      for (int k = 0; k < 3; ++k) mass[t[k]] += area / 3;
-    }
-    lightness_.assign(x_.size(), 0);
-    for (int i = 0; i < moving_; ++i) lightness_[i] = cloth_.held[i] || mass[i] == 0 ? 0 : 1 / mass[i];
-  }
-
-  void add_springs() {
-    const double stiffness = kGravity / params_.stretch_per_m;  // N/m per kg/m^2
-    for (size_t i = 0; i < cloth_.rest_m.size(); ++i) {
-      const auto& e = cloth_.features.edges[i];
-      if (lightness_[e[0]] + lightness_[e[1]] == 0) continue;
-      // A spring of a triangular lattice of that stiffness.
-      springs_.push_back({e[0], e[1], (x_[e[0]] - x_[e[1]]).norm(), cloth_.rest_m[i], 1 / (0.87 * stiffness)});
-    }
-    // Gravity's way: a sweep from the top down carries the weight further than one in no order.
-    std::stable_sort(springs_.begin(), springs_.end(), [&](const Spring& p, const Spring& q) {
-      return x_[p.a].y() + x_[p.b].y() > x_[q.a].y() + x_[q.b].y();
-    });
-  }
-
-  void add_hinges() {
-    const double stiffness = kGravity * std::pow(params_.bending_length_m, 3);  // N m per kg/m^2
-    std::vector<std::array<int, 4>> sides;                                      // (low, high, opposite, order)
-    for (const Vector3i& t : cloth_.mesh.triangles)
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
-        sides.push_back({low, high, t[(k + 2) % 3], static_cast<int>(sides.size())});
-      }
-    std::sort(sides.begin(), sides.end());
-    for (size_t i = 0; i + 1 < sides.size(); ++i) {
-      const auto &s = sides[i], &t = sides[i + 1];
-      if (s[0] != t[0] || s[1] != t[1]) continue;
-      const int a = s[0], b = s[1], c = s[2], d = t[2];
-      const double ab = rest_length(a, b), ac = rest_length(a, c), bc = rest_length(b, c);
-      const double ad = rest_length(a, d), bd = rest_length(b, d);
-      const double at_a_c = cotangent(bc, ab, ac), at_b_c = cotangent(ac, ab, bc);
-      const double at_a_d = cotangent(bd, ab, ad), at_b_d = cotangent(ad, ab, bd);
-      const double area = triangle_area(ab, ac, bc) + triangle_area(ab, ad, bd);
-      hinges_.push_back({{a, b, c, d},
-                         {at_b_c + at_b_d, at_a_c + at_a_d, -at_a_c - at_b_c, -at_a_d - at_b_d},
-                         area / (stiffness * bending_part(a, b))});
-    }
   }
 
   // A smooth unevenness along the normals.
