@@ -12,7 +12,8 @@ struct AcceptanceOptions {
   double largest_residual_m = 0.008;       // RMS of the inliers
   double largest_contradicted_part = 0.3;  // of the model's visible surface that the sensor looked through
   double largest_looked_through_part = 0.3;
-  double largest_floor_tilt_deg = 4, largest_floor_height_m = 0.1;
+  double largest_floor_tilt_deg = 1.5;  // 10 mm of a depth camera's own error over a metre of floor tilt it by .6
+  double largest_floor_height_m = 0.1;
   double largest_residual_over_noise = 5;
   double largest_rotation_sigma_deg = 2, largest_translation_sigma_m = 0.025;
 };
