@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kScale = 0.25;  // the least at which both garments come out: what is tested here does not depend on it
+constexpr double kScale = 0.4;
 const fs::path kLibrary = fs::path(DRESSFORM_SOURCE_DIR) / "scenes/library";
 
 SceneRunRequest request_for(const fs::path& folder, const fs::path& scene_file) {
