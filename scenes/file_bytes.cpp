@@ -1,8 +1,11 @@
 #include "scenes/file_bytes.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 
 #include "scenes/error.h"
@@ -25,6 +28,18 @@ std::string read_file_bytes(const std::filesystem::path& path, std::size_t most_
   if (!file || file.gcount() != static_cast<std::streamsize>(bytes.size()))
     throw InputError(path.string(), "cannot be read; expected a readable file");
   return bytes;
+}
+
+void remove_stale_temporaries(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t at = name.rfind(".tmp");
+    if (at == std::string::npos || name.find('-', at) == std::string::npos) continue;
+    const long writer = std::strtol(name.c_str() + at + 4, nullptr, 10);
+    if (writer > 0 && kill(static_cast<pid_t>(writer), 0) != 0 && errno == ESRCH)
+      std::filesystem::remove(entry.path(), error);
+  }
 }
 
 void write_file_atomically(const std::filesystem::path& path, const std::string& bytes) {

@@ -15,4 +15,7 @@ std::string read_file_bytes(const std::filesystem::path& path,
 // Throws InputError naming the file when it cannot be written.
 void write_file_atomically(const std::filesystem::path& path, const std::string& bytes);
 
+// Takes away what writers that were killed left half-written in a folder; files of running processes stay.
+void remove_stale_temporaries(const std::filesystem::path& folder);
+
 }  // namespace dressform

@@ -59,6 +59,7 @@ void write_textured_ply(const fs::path& file, const TexturedMesh& garment, const
 
 std::vector<std::string> export_reconstruction(const Reconstruction& reconstruction, const fs::path& out) {
   fs::create_directories(out);
+  remove_stale_temporaries(out);
   std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> jobs;
   jobs.push_back({"registration.json",
                   [&](const fs::path& file) { write_file_atomically(file, registration_json(reconstruction)); }});
