@@ -98,8 +98,8 @@ TEST(EndToEndOwnMeshes, RunThroughToFittedClothes) {
   fs::remove_all(folder);
   fs::create_directories(folder);
   SceneRunRequest request;
-  request.scene = scaled(read_scene(write_own_scene(folder)), 0.3);
-  request.scale = 0.3;
+  request.scene = scaled(read_scene(write_own_scene(folder)), 0.4);
+  request.scale = 0.4;
   request.output = folder / "run";
   request.store = folder / "store";
   const auto result = run_scene(request);
