@@ -256,7 +256,7 @@ TEST(Multipath, InfraredOfAnotherScaleIsNotUsed) {
     EXPECT_GT(found.shots.measured, 0.3) << scale;
     EXPECT_LT(found.shots.measured, 3) << scale;
     const CaptureSession clean = without_multipath(bent.session, bent.calibration, found);
-    const cv::Mat& truth = capture(0).session.dressed.at("k1").depth_mm;
+    const cv::Mat truth = capture(0).session.dressed.at("k1").depth_mm;
     EXPECT_LT(rms_difference(clean.dressed.at("k1").depth_mm, truth),
               0.8 * rms_difference(bent.session.dressed.at("k1").depth_mm, truth))
         << scale;
