@@ -355,7 +355,7 @@ TEST(Multipath, EmptySmallAndBlindImages) {
   }
   Captured captured = capture(1);
   for (auto& [name, shot] : captured.session.naked) shot.depth_mm.setTo(0);
-  for (auto& [name, shot] : captured.session.dressed) shot.ir.release();
+  for (auto& [name, shot] : captured.session.dressed) shot.ir.release(), shot.depth_mm.setTo(0);
   captured.session.scans["scan_naked"].depth_mm.clear();
   const Multipath found = estimate(captured);
   EXPECT_EQ(found.shots.factor, 0);
