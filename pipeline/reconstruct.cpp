@@ -1,6 +1,7 @@
 #include "pipeline/reconstruct.h"
 
 #include "pipeline/multipath/apply.h"
+#include "pipeline/run/picks_in_model.h"
 #include "pipeline/run/stage_runner.h"
 #include "scenes/hash.h"
 
@@ -93,7 +94,9 @@ LazyArtifact<FacingClues> facing_like(const LazyArtifact<KnownBody>& known) {
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
                            const StageProgress& progress) {
   check_options(options);
+  check_picks(options, source);
   StageRunner runner(options, store, progress);
+  if (source.picks) runner.set_picks(*source.picks);
 
   const auto calibrated = runner.run<Calibrate>("calibrate", source.session);
   const auto calibration = cameras_of(calibrated);
@@ -104,6 +107,7 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
   const auto naked = runner.run<Fuse>("fuse_naked", scan_naked, scanner);
   const auto extracted = runner.run<Extract>("extract", session, calibration, naked);
   const auto registration = runner.run<Register>("registration", session, calibration, naked, extracted);
+  if (source.picks) runner.set_picks(in_model_frame(*source.picks, naked, registration));
   const auto landmarks =
       runner.run<FindLandmarks>("landmarks_naked", naked, facing_by_rig(source.session, registration));
   const auto body = with_landmarks(naked, landmarks);
@@ -122,6 +126,7 @@ Reconstruction reconstruct(const SessionSource& source, const ReconstructionOpti
         runner.run<Fuse>("fuse_user", corrected(*source.scan_user, user_scanner, multipath, "scan_user"), user_scanner);
     result.user_landmarks = runner.run<FindLandmarks>("landmarks_user", *result.user, facing_like(body));
     const auto user = with_landmarks(*result.user, *result.user_landmarks);
+    if (source.picks) runner.set_picks(in_model_frame(*source.picks, naked, registration, *result.user));
     result.fitted = runner.run<Fit>("fit", body, user, textured, layouts_of(opened));
     result.corrected = runner.run<Correct>("correct", user, *result.fitted);
   }

@@ -12,6 +12,7 @@
 #include "pipeline/multipath/multipath.h"
 #include "pipeline/run/artifact_store.h"
 #include "pipeline/run/lazy_artifact.h"
+#include "scenes/picks.h"
 
 namespace dressform {
 
@@ -41,6 +42,7 @@ struct SessionSource {
   std::optional<LazyArtifact<DepthScan>> scan_user;  // absent: the garments are made but not fitted
   std::vector<std::string> sensors;
   std::string scan_naked_sensor, scan_user_sensor;
+  std::optional<LazyArtifact<Picks>> picks;  // what a person picked by hand, in the frames it was picked in
 };
 // `check` reads and checks the whole session now, so that a damaged file is an InputError before anything is written.
 SessionSource open_session(const std::filesystem::path& folder, bool check);
@@ -67,7 +69,8 @@ struct Reconstruction {
   std::vector<StageRecord> records;
 };
 
-// The whole pipeline. Throws InputError for unknown stages, variants and parameters before any stage runs.
+// The whole pipeline. Throws InputError for unknown stages, variants and parameters, and for picks that a variant needs
+// and the session lacks, before any stage runs.
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
                            const StageProgress& progress = {});
 
@@ -77,6 +80,7 @@ struct StageDescription {
   struct VariantDescription {
     std::string name;
     std::vector<FieldInfo> fields;
+    std::vector<std::string> picks;  // names of what a person has to pick for it; empty: nothing
   };
   std::string name, default_variant;
   std::vector<VariantDescription> variants;

@@ -50,7 +50,7 @@ bool is_sensor_name(const std::string& name);
 // Writes to a temporary folder beside `folder`, then renames it. Throws InputError when `folder` exists.
 void write_capture_session(const std::filesystem::path& folder, const CaptureSession& session);
 
-// Hash (hex) of every file of the session except those under `truth/`, and of their names.
+// Hash (hex) of every file of the session except those under `truth/` and `picks/`, and of their names.
 std::string session_content_hash(const std::filesystem::path& folder);
 
 }  // namespace dressform

@@ -8,6 +8,7 @@
 #include "scenes/hash.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
+#include "scenes/picks.h"
 #include "scenes/session_folder.h"
 #include "scenes/session_layout.h"
 
@@ -116,7 +117,8 @@ std::string session_content_hash(const fs::path& folder) {
   std::vector<std::string> names;
   for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
     const std::string name = entry->path().filename().string();
-    if (entry.depth() == 0 && (name == "truth" || name[0] == '.'))  // '.': left by a writer that was killed
+    if (entry.depth() == 0 &&
+        (name == "truth" || name == kPicksFolder || name[0] == '.'))  // '.': left by a writer that was killed
       entry.disable_recursion_pending();
     else if (entry->is_regular_file())
       names.push_back(entry->path().lexically_relative(folder).generic_string());

@@ -1,14 +1,9 @@
 #include "scenes/file_bytes.h"
 
-#include <signal.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <cerrno>
-#include <cstdlib>
 #include <fstream>
 
 #include "scenes/error.h"
+#include "scenes/temporary_files.h"
 
 namespace dressform {
 
@@ -31,21 +26,11 @@ std::string read_file_bytes(const std::filesystem::path& path, std::size_t most_
 }
 
 void remove_stale_temporaries(const std::filesystem::path& folder) {
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const std::size_t at = name.rfind(".tmp");
-    if (at == std::string::npos || name.find('-', at) == std::string::npos) continue;
-    const long writer = std::strtol(name.c_str() + at + 4, nullptr, 10);
-    if (writer > 0 && kill(static_cast<pid_t>(writer), 0) != 0 && errno == ESRCH)
-      std::filesystem::remove(entry.path(), error);
-  }
+  remove_stale_temporaries(folder, std::chrono::seconds(0));
 }
 
 void write_file_atomically(const std::filesystem::path& path, const std::string& bytes) {
-  static std::atomic<unsigned> serial{0};  // two threads may write beside one another
-  std::filesystem::path temporary = path;
-  temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
+  const std::filesystem::path temporary = temporary_beside(path);
   std::error_code error;
   {
     std::ofstream file(temporary, std::ios::binary);

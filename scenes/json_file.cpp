@@ -15,6 +15,7 @@ namespace dressform {
 namespace {
 
 constexpr double kRounded = 1e-4, kExact = 1e-12;
+constexpr int kMostNested = 64;  // levels: copies and messages of a value go down them one by one
 
 std::string shown(const nlohmann::json& value) {
   const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -149,8 +150,13 @@ JsonValue read_json(const std::filesystem::path& file) {
                      fmt::format("found {} MB; expected JSON of {} MB at most", bytes >> 20, kMostBytes >> 20));
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string(), "cannot be read; expected a readable file");
+  const auto check_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+    if (depth > kMostNested)
+      throw InputError(file.string(), fmt::format("found values nested deeper than {} levels", kMostNested));
+    return true;
+  };
   try {
-    return {file.string(), nlohmann::json::parse(stream)};
+    return {file.string(), nlohmann::json::parse(stream, check_depth)};
   } catch (const nlohmann::json::exception& error) {
     const std::string text = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
     throw InputError(file.string(), "is not JSON with finite numbers: " + text.substr(text.find(']') + 2));

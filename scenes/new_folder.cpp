@@ -1,8 +1,7 @@
 #include "scenes/new_folder.h"
 
-#include <unistd.h>
-
 #include "scenes/error.h"
+#include "scenes/temporary_files.h"
 
 namespace dressform {
 
@@ -13,9 +12,9 @@ NewFolder::NewFolder(const fs::path& folder) : target_(fs::absolute(folder).lexi
   if (fs::exists(target_)) throw InputError(folder.string(), "is there already; expected a new folder");
   std::error_code error;
   fs::create_directories(target_.parent_path(), error);
-  temporary_ =
-      target_.parent_path() / (".new_" + target_.filename().string() + "_" + std::to_string(getpid()) + ".part");
-  fs::remove_all(temporary_, error);
+  const std::string hidden = "." + target_.filename().string();
+  remove_stale_temporaries(target_.parent_path(), std::chrono::seconds(0), hidden + ".tmp");
+  temporary_ = temporary_beside(target_.parent_path() / hidden);
   if (error || !fs::create_directory(temporary_, error))
     throw InputError(folder.string(), "cannot be written; expected a writable folder above it");
 }

@@ -5,6 +5,7 @@
 
 #include "scenes/calibration_toml.h"
 #include "scenes/scene_fields.h"
+#include "scenes/scene_parts.h"
 #include "scenes/toml_section.h"
 
 namespace dressform {
@@ -139,14 +140,18 @@ void read_sensor_model(TomlSection& section, VariantChoice& choice) {
   choice.values = section.values(choice.variant.c_str());
 }
 
+std::string as_comment(const TomlFiles::File& file) {
+  std::string text = "# --- " + file.name + "\n# ";
+  for (const char letter : file.text) text += letter == '\n' ? std::string("\n# ") : std::string(1, letter);
+  return text + "\n";
+}
+
 // The scene as written, followed by the files it refers to, as comments: what it was made of can be read from one text.
 std::string full_text(const TomlFiles& files) {
   std::string text = files.files().front().text;
   for (std::size_t i = 1; i < files.files().size(); ++i) {
     const auto& file = files.files()[i];
-    text += (text.empty() || text.back() == '\n' ? "" : "\n") + ("\n# --- " + file.name + "\n# ");
-    for (const char letter : file.text) text += letter == '\n' ? std::string("\n# ") : std::string(1, letter);
-    text += "\n";
+    text += (text.empty() || text.back() == '\n' ? "" : "\n") + ("\n" + as_comment(file));
   }
   return text;
 }
@@ -171,6 +176,7 @@ Scene read(TomlFiles& files, const std::filesystem::path& file) {
   section.child("prior", [&](TomlSection& prior) { fields(prior, scene.prior); });
   section.child("boards", [&](TomlSection& boards) { read_boards(boards, scene); });
   section.child("calibration", [&](TomlSection& given) { fields(given, scene.given_calibration); });
+  section.child("operator", [&](TomlSection& hand) { fields(hand, scene.picking); });
   section.child("sensor", [&](TomlSection& sensor) { read_sensor_model(sensor, scene.sensor_model); });
   section.finish();
   scene.toml = full_text(files);
@@ -184,6 +190,28 @@ Scene read_scene(const std::filesystem::path& file) {
   return read(files, file);
 }
 
+Scene with_rig(const Scene& scene, const std::filesystem::path& file) {
+  TomlFiles files;
+  TomlSection section(files, files.open(file, file.filename().string(), ""), "rig");
+  Scene result = scene;
+  result.rig.clear();
+  read_rig(section, result);
+  section.finish();
+  result.toml += "\n# --- instead of its rig\n" + as_comment(files.files().front());
+  return result;
+}
+
+Scene with_scan(const Scene& scene, const std::filesystem::path& file) {
+  TomlFiles files;
+  TomlSection section(files, files.open(file, file.filename().string(), ""), "scan");
+  Scene result = scene;
+  result.scan = {};
+  read_scan(section, result.scan);
+  section.finish();
+  result.toml += "\n# --- instead of its scan\n" + as_comment(files.files().front());
+  return result;
+}
+
 Scene scaled(const Scene& scene, double scale) {
   if (!(scale > 0 && scale <= 1))
     throw InputError("scale", "found " + to_text(FieldValue(scale)) + "; expected a number above 0, at most 1");
@@ -195,6 +223,7 @@ Scene scaled(const Scene& scene, double scale) {
   };
   for (auto& sensor : result.rig) shrink(sensor.calibration);
   shrink(result.scan.calibration);
+  result.picking.click_px *= scale;  // the hand sees the same picture
   return result;
 }
 

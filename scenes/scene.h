@@ -108,6 +108,13 @@ struct GivenCalibrationSpec {
   }
 };
 
+// What the operator of the thesis picks by hand (scenes/picks.h), played from the truth, and how steadily.
+struct PickingSpec {
+  bool picks = true;
+  double click_px = 1.5;  // sigma of a click where the colours show: in pixels of a sensor's colour image
+  double click_mm = 3.0;  // on bodies, which have no colours
+};
+
 // A named model and its parameters, e.g. sensor = "kinect_v2" with [sensor.kinect_v2] overrides.
 struct VariantChoice {
   std::string variant;
@@ -128,6 +135,7 @@ struct Scene {
   PriorSpec prior;
   std::optional<BoardsSpec> boards;
   GivenCalibrationSpec given_calibration;
+  PickingSpec picking;
   VariantChoice sensor_model{"kinect_v2", {}};
 };
 

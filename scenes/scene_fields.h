@@ -96,6 +96,13 @@ void fields(V& v, GivenCalibrationSpec& given) {
 }
 
 template <class V>
+void fields(V& v, PickingSpec& picking) {
+  v("picks", picking.picks, "whether the session holds what an operator picks by hand");
+  v("click_px", picking.click_px, 0.0, 50.0, "px", "sigma of a click on coloured things, in the colour image");
+  v("click_mm", picking.click_mm, 0.0, 50.0, "mm", "sigma of a click on bodies");
+}
+
+template <class V>
 void fields(V& v, Camera& camera) {
   v("width", camera.width, 1, 8192, "px", "columns");
   v("height", camera.height, 1, 8192, "px", "rows");

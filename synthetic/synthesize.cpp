@@ -9,6 +9,7 @@
 #include "synthetic/body/scan_path.h"
 #include "synthetic/capture/visibility.h"
 #include "synthetic/garments/garment.h"
+#include "synthetic/operator/operator.h"
 #include "synthetic/room/room.h"
 #include "synthetic/studio.h"
 
@@ -105,7 +106,7 @@ void add_garment_truth(const Scene& scene, const GarmentSpec& spec, const Garmen
   }
 }
 
-// Naked and dressed shots of the rig, with all that is true of the dressed one.
+// Naked and dressed shots of the rig, with all that is true of the dressed one and what is picked on it.
 void take_shots(const Scene& scene, Studio& studio, const Body& body, const std::vector<RaySurface>& around, Seed seed,
                 SyntheticCapture& out) {
   const auto set = joined(joined(around, make_rig_hardware(scene.rig)), {mannequin_surface(body)});
@@ -120,7 +121,12 @@ void take_shots(const Scene& scene, Studio& studio, const Body& body, const std:
   const RayScene dressed(joined(set, cloth));
   out.session.dressed = studio.shoot(dressed, body, "dressed");
   out.truth.labels = studio.labels(dressed);
-  for (std::size_t i = 0; i < specs.size(); ++i) add_garment_truth(scene, *specs[i], worn[i], dressed, out.truth);
+  WornGarments by_slot;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    add_garment_truth(scene, *specs[i], worn[i], dressed, out.truth);
+    by_slot[specs[i]->slot] = &worn[i];
+  }
+  if (scene.picking.picks) out.picks = operate_on_clothes(scene, dressed, by_slot, out, seed);
 }
 
 std::vector<RaySurface> empty_room(const Scene& scene) {
@@ -132,7 +138,7 @@ std::vector<RaySurface> empty_room(const Scene& scene) {
 SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgress& progress) {
   check_rig_stands_inside(scene);
   Studio studio(scene, seed, progress);
-  SyntheticCapture out{empty_session(scene, seed), {}};
+  SyntheticCapture out{empty_session(scene, seed), {}, {}};
   GroundTruth& truth = out.truth;
   const Body body = make_body(scene.body), user = make_body(scene.user);
   const auto naked_path = path_inside(scene, body, derived_seed(seed, "scan_naked"));
@@ -143,6 +149,7 @@ SyntheticCapture synthesize(const Scene& scene, Seed seed, const SynthesisProgre
   out.session.scans["scan_naked"] =
       studio.scan(RayScene(joined(around, {mannequin_surface(body)})), naked_path, "scan_naked");
   out.session.scans["scan_user"] = studio.scan(RayScene(joined(room, {user_surface(user)})), user_path, "scan_user");
+  if (out.picks) pick_body_pairs({body, naked_path}, {user, user_path}, scene.picking.click_mm, seed, *out.picks);
   truth.scan_world_from_sensor = {{"scan_naked", naked_path}, {"scan_user", user_path}};
   for (const auto& sensor : scene.rig) truth.world_from_sensor[sensor.name] = sensor.world_from_sensor;
   if (scene.boards) out.session.boards = studio.boards(*scene.boards, empty_room(scene));
@@ -157,7 +164,7 @@ SyntheticCapture synthesize_boards(const Scene& scene, Seed seed, const Synthesi
   if (!scene.boards) throw InputError("boards", "the scene has none; expected a table [boards]");
   check_rig_stands_inside(scene);
   Studio studio(scene, seed, progress);
-  SyntheticCapture out{empty_session(scene, seed), {}};
+  SyntheticCapture out{empty_session(scene, seed), {}, {}};
   out.session.boards = studio.boards(*scene.boards, empty_room(scene));
   out.truth.calibration = true_calibration(scene);
   return out;

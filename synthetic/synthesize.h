@@ -4,6 +4,7 @@
 
 #include "scenes/capture_session.h"
 #include "scenes/ground_truth.h"
+#include "scenes/picks.h"
 #include "scenes/scene.h"
 
 namespace dressform {
@@ -11,6 +12,7 @@ namespace dressform {
 struct SyntheticCapture {
   CaptureSession session;
   GroundTruth truth;
+  std::optional<Picks> picks;  // of an operator, where the scene has one
 };
 
 // Captures the scene with the scene's sensor model. Deterministic in (scene, seed), whatever the thread count.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -24,6 +25,7 @@ double difference(const cv::Mat& a, const cv::Mat& b) {
 struct Captured {
   CaptureSession session;
   GroundTruth truth;
+  std::optional<Picks> picks;
   std::vector<std::array<int, 2>> progress;
 };
 
@@ -37,7 +39,8 @@ const Captured& group1() {
       EXPECT_FALSE(what.empty());
       progress.push_back({done, total});
     });
-    return Captured{std::move(capture.session), std::move(capture.truth), std::move(progress)};
+    return Captured{std::move(capture.session), std::move(capture.truth), std::move(capture.picks),
+                    std::move(progress)};
   }();
   return captured;
 }
@@ -128,6 +131,94 @@ TEST(Synthesize, DepthTruthAndCalibrationAgree) {
   }
 }
 
+// Points of picks in the world, by the frame that they are in.
+std::vector<Vector3d> in_world(const PickedPoints& picked, const GroundTruth& truth) {
+  const auto scan = truth.scan_world_from_sensor.find(picked.frame);
+  const Isometry3d pose =
+      scan != truth.scan_world_from_sensor.end() ? scan->second.front() : truth.world_from_sensor.at(picked.frame);
+  std::vector<Vector3d> points;
+  for (const auto& point : picked.points) points.push_back(pose * point);
+  return points;
+}
+
+double distance_to(const std::vector<Vector3d>& line, const Vector3d& point) {
+  double least = 1e9;
+  for (const auto& each : line) least = std::min(least, (each - point).norm());
+  return least;
+}
+
+// As many as the thesis picked, on what they are named after.
+TEST(Synthesize, TheOperatorPicksOnTheClothes) {
+  const GroundTruth& truth = group1().truth;
+  const Picks& picks = group1().picks.value();
+  const std::map<std::string, std::pair<int, int>> wanted{{"top", {247, 243}}, {"bottom", {162, 271}}};
+  for (const auto& [slot, counts] : wanted) {
+    int rims = 0, borders = 0;
+    for (const auto& [name, parts] : picks.points) {
+      ASSERT_EQ(parts.size(), 1u) << name;
+      const int count = static_cast<int>(parts[0].points.size());
+      if (name.rfind("rim_" + slot, 0) == 0) rims += count;
+      if (name.rfind("border_" + slot, 0) != 0) continue;
+      borders += count;
+      for (const auto& point : in_world(parts[0], truth))
+        EXPECT_LT(distance_to(truth.garments.at(slot).mesh.vertices, point), 0.03) << name;
+    }
+    EXPECT_EQ(rims, counts.first) << slot;
+    EXPECT_EQ(borders, counts.second) << slot;
+    for (const auto& rim : truth.rims.at(slot)) {
+      if (rim.visible < 0.9) continue;
+      double sum = 0;
+      const auto points = in_world(picks.points.at("rim_" + slot + "_" + rim.name)[0], truth);
+      for (const auto& point : points) sum += distance_to(rim.points, point);
+      EXPECT_LT(sum / static_cast<double>(points.size()), 0.006) << slot << " " << rim.name;
+    }
+  }
+  // The trousers' waist is under the shirt: it is picked at the shirt's hem.
+  const auto waist = in_world(picks.points.at("rim_bottom_waist")[0], truth);
+  double sum = 0;
+  for (const auto& point : waist)
+    for (const auto& rim : truth.rims.at("top"))
+      if (rim.name == "hem") sum += distance_to(rim.points, point);
+  EXPECT_LT(sum / static_cast<double>(waist.size()), 0.06);
+}
+
+TEST(Synthesize, TheOperatorPicksTheSamePlacesOnBothBodies) {
+  const GroundTruth& truth = group1().truth;
+  const auto &control = group1().picks->points.at("control"), &target = group1().picks->points.at("target");
+  EXPECT_EQ(control[0].frame, "scan_naked");
+  EXPECT_EQ(target[0].frame, "scan_user");
+  const auto on_naked = in_world(control[0], truth), on_user = in_world(target[0], truth);
+  ASSERT_EQ(on_naked.size(), on_user.size());
+  EXPECT_GT(on_naked.size(), 60u);  // of 200, from one frame of this short walk
+  for (std::size_t i = 0; i < on_naked.size(); ++i) {
+    EXPECT_LT(distance_to(truth.naked_body.vertices, on_naked[i]), 0.03);
+    EXPECT_LT(distance_to(truth.user_body.vertices, on_user[i]), 0.03);
+    EXPECT_LT((on_naked[i] - on_user[i]).norm(), 0.35);
+  }
+}
+
+TEST(Synthesize, TheOperatorDrawsTheRegionsThatAreSeen) {
+  const auto& regions = group1().picks->regions;
+  for (const auto& [sensor, labels] : group1().truth.labels) {
+    const std::pair<const char*, int> things[] = {{"skin", 1}, {"top", 2}, {"bottom", 3}};
+    for (const auto& [thing, label] : things) {
+      const cv::Mat truth = labels == label, &drawn = regions.at("label_" + std::string(thing) + "_" + sensor);
+      EXPECT_GT(cv::countNonZero(truth & drawn), 0.85 * cv::countNonZero(truth | drawn)) << thing << " " << sensor;
+      if (label == 1) continue;
+      const cv::Mat &region = regions.at("region_" + std::string(thing) + "_" + sensor),
+                    &smooth = regions.at("smooth_" + std::string(thing) + "_" + sensor);
+      EXPECT_GT(cv::countNonZero(truth & region), 0.9 * cv::countNonZero(truth)) << thing << " " << sensor;
+      EXPECT_EQ(cv::countNonZero(smooth & ~truth), 0) << thing << " " << sensor;
+      EXPECT_GE(cv::countNonZero(smooth), 25);
+      // An arm hides a part of the clothes in the side views.
+      const int hidden = cv::countNonZero(region & ~truth & (labels == 1));
+      if (label == 2 && (sensor == "k2" || sensor == "k4")) {
+        EXPECT_GT(hidden, 0.05 * cv::countNonZero(truth)) << sensor;
+      }
+    }
+  }
+}
+
 TEST(Synthesize, SameBytesForAnyThreadCount) {
   SyntheticCapture captures[2];
   for (int threads = 1; threads <= 2; ++threads) {
@@ -148,6 +239,10 @@ TEST(Synthesize, SameBytesForAnyThreadCount) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(difference(a.scans.at(scan).depth_mm[i], b.scans.at(scan).depth_mm[i]), 0);
   for (const char* slot : {"top", "bottom"})
     EXPECT_EQ(captures[0].truth.garments.at(slot).views, captures[1].truth.garments.at(slot).views);
+  const Picks &one = captures[0].picks.value(), &other = captures[1].picks.value();
+  ASSERT_EQ(one.names(), other.names());
+  for (const auto& [name, parts] : one.points) EXPECT_EQ(parts[0].points, other.points.at(name)[0].points) << name;
+  for (const auto& [name, region] : one.regions) EXPECT_EQ(difference(region, other.regions.at(name)), 0) << name;
 }
 
 TEST(Synthesize, ProgressCountsToTheEnd) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
@@ -46,6 +47,10 @@ int main(int argc, char** argv) {
     return run_program(argc, argv);
   } catch (const InputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {  // a full disk, a folder that is read-only
+    fmt::print(stderr, "error: {}: {}; expected a place that can be read and written and has room\n",
+               (error.path2().empty() ? error.path1() : error.path2()).string(), error.code().message());
     return kBadInput;
   } catch (const std::exception& error) {
     fmt::print(stderr, "crash: {}\n", error.what());

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "pipeline/run/preset.h"
 #include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
@@ -44,6 +45,12 @@ void add_choices(CLI::App& command, CommonOptions& options) {
       ->allow_extra_args(false);
 }
 
+void add_preset(CLI::App& command, CommonOptions& options) {
+  command.add_option("--preset", options.preset,
+                     "variants and parameters by one name, or a TOML file of them; --variant and --set override it; "
+                     "see dressform variants --presets");
+}
+
 namespace {
 
 // Fields as options: --name, with dashes.
@@ -77,12 +84,20 @@ void add_scene_options(CLI::App& command, CommonOptions& options) {
 Choices parse_choices(const CommonOptions& options) {
   Choices choices;
   choices.reconstruction.seed = options.seed;
+  if (!options.preset.empty()) {
+    Preset preset = read_preset(options.preset);
+    choices.reconstruction.variants = std::move(preset.variants);
+    choices.reconstruction.values = std::move(preset.values);
+  }
   for (const auto& text : options.variants) {
     const auto [stage, name] = split("--variant", text, '=', "stage=name, e.g. registration=point_to_plane");
-    if (stage == "sensor")
+    if (stage == "sensor") {
       choices.sensor.variant = name;
-    else
-      choices.reconstruction.variants[stage] = name;
+      continue;
+    }
+    std::string& chosen = choices.reconstruction.variants[stage];
+    if (chosen != name) choices.reconstruction.values.erase(stage);
+    chosen = name;
   }
   for (const auto& text : options.values) {
     const std::string form = "stage.parameter=value, e.g. fuse.voxel_m=0.005";
@@ -108,7 +123,7 @@ std::string variant_text(const CommonOptions& options) {
   std::vector<std::string> words = options.variants;
   words.insert(words.end(), options.values.begin(), options.values.end());
   std::sort(words.begin(), words.end());
-  std::string text;
+  std::string text = options.preset.empty() ? "" : std::filesystem::path(options.preset).stem().string();
   for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
   return text.empty() ? "default" : text;
 }

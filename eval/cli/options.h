@@ -20,16 +20,19 @@ struct CommonOptions {
   int threads = 0;  // 0: all cores
   double scale = 1.0;
   std::vector<std::string> variants, values;  // "stage=name", "stage.parameter=value"
+  std::string preset;                         // name or file; variants and values override it
   bool quiet = false;
 };
 void add_output(CLI::App& command, CommonOptions& options, const std::string& what);
 void add_threads(CLI::App& command, CommonOptions& options);
 void add_choices(CLI::App& command, CommonOptions& options);
+void add_preset(CLI::App& command, CommonOptions& options);
 void add_scene_options(CLI::App& command, CommonOptions& options);
 // --unit, --up and --lift-m of meshes that are given on the command line.
 void add_mesh_frame(CLI::App& command, MeshFrame& frame);
 
-// --variant and --set, sorted by stage; "sensor" belongs to the scene's sensor model.
+// --preset, overridden by --variant and --set, sorted by stage; another variant than the preset's takes nothing of what
+// the preset sets for that stage. "sensor" belongs to the scene's sensor model.
 struct Choices {
   ReconstructionOptions reconstruction;
   VariantChoice sensor;  // empty variant: as the scene says
@@ -39,8 +42,8 @@ Choices parse_choices(const CommonOptions& options);
 // The scene file with --scale and the sensor model of --variant and --set applied.
 Scene chosen_scene(const std::filesystem::path& file, const CommonOptions& options);
 
-// The chosen variants and parameters as one word list for the scores: "default" or "surface=rbf_carr
-// fuse.voxel_m=0.003".
+// The chosen variants and parameters as one word list for the scores: "default", "surface=rbf_carr
+// fuse.voxel_m=0.003" or "thesis surface=rbf_carr".
 std::string variant_text(const CommonOptions& options);
 
 // The store of a run: --store, $DRESSFORM_STORE, or ".dressform-store" beside the output folder.

@@ -30,6 +30,7 @@ Command add_reconstruct_command(CLI::App& app) {
   command->add_option("session", options->session, "capture session folder")->required();
   add_output(*command, *options, "run folder; default runs/<session>");
   command->add_option("--seed", options->seed, "seed of stages that draw random numbers (default 1)");
+  add_preset(*command, *options);
   add_choices(*command, *options);
   add_threads(*command, *options);
   command->footer("Example:\n  dressform reconstruct sessions/group2 -o runs/group2");

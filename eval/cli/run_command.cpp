@@ -29,10 +29,12 @@ Command add_run_command(CLI::App& app) {
   command->add_option("scene", options->scene, "scene file (TOML)")->required();
   add_output(*command, *options, "run folder; default runs/<scene>");
   add_scene_options(*command, *options);
+  add_preset(*command, *options);
   add_choices(*command, *options);
   add_threads(*command, *options);
   command->footer(
-      "Example:\n  dressform run scenes/library/group1.toml -o runs/group1 --seed 2 --set fuse.voxel_m=0.005");
+      "Example:\n  dressform run scenes/library/group1.toml -o runs/group1 --seed 2 --set fuse.voxel_m=0.005\n"
+      "  dressform run scenes/library/group1.toml -o runs/thesis1 --preset thesis");
   return [options] { return run_scene_file(*options); };
 }
 

@@ -27,6 +27,7 @@ int synthesize_scene(const SynthesizeOptions& options) {
   });
   write_capture_session(options.output, capture.session);
   write_ground_truth(options.output, capture.truth);
+  if (capture.picks) write_picks(options.output, *capture.picks);
   progress.finish("synthesize", "done");
   for (const std::string& line : drape_warnings(options.output)) progress.finish("warning", line);
   fmt::print("session: {}\n", options.output.string());

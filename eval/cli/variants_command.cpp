@@ -4,6 +4,7 @@
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
+#include "pipeline/run/preset.h"
 #include "scenes/import/import.h"
 #include "synthetic/sensors/sensor_model.h"
 
@@ -20,8 +21,10 @@ void print_field(const FieldInfo& field) {
              range.empty() ? "" : "[" + range + "] ", field.doc);
 }
 
-void print_variant(const std::string& name, bool is_default, const std::vector<FieldInfo>& fields) {
+void print_variant(const std::string& name, bool is_default, const std::vector<FieldInfo>& fields,
+                   const std::vector<std::string>& picks = {}) {
   fmt::print("  {}{}\n", name, is_default ? "  (default)" : "");
+  if (!picks.empty()) fmt::print("      needs what a person picked: {}\n", fmt::join(picks, ", "));
   for (const auto& field : fields) print_field(field);
 }
 
@@ -43,19 +46,32 @@ int print_variants(const std::string& only) {
     found = true;
     fmt::print("{}\n", stage.name);
     for (const auto& variant : stage.variants)
-      print_variant(variant.name, variant.name == stage.default_variant, variant.fields);
+      print_variant(variant.name, variant.name == stage.default_variant, variant.fields, variant.picks);
   }
   if (!found)
     throw InputError("stage " + only, "not known; expected import, sensor or a stage that `dressform variants` lists");
   return kSuccess;
 }
 
+int print_presets() {
+  for (const auto& name : preset_names()) {
+    const Preset preset = read_preset(name);
+    fmt::print("{}: {}\n", name, preset.description);
+    for (const auto& [stage, variant] : preset.variants) fmt::print("  --variant {}={}\n", stage, variant);
+    for (const auto& [stage, values] : preset.values)
+      for (const auto& [parameter, value] : values) fmt::print("  --set {}.{}={}\n", stage, parameter, to_text(value));
+  }
+  return kSuccess;
+}
+
 Command add_variants_command(CLI::App& app) {
   auto stage = std::make_shared<std::string>();
+  auto presets = std::make_shared<bool>(false);
   auto* command = app.add_subcommand("variants", "List the stages, their variants and parameters");
   command->add_option("stage", *stage, "only this stage");
-  command->footer("Example:\n  dressform variants registration");
-  return [stage] { return print_variants(*stage); };
+  command->add_flag("--presets", *presets, "instead: the presets, and what they stand for");
+  command->footer("Example:\n  dressform variants registration\n  dressform variants --presets");
+  return [stage, presets] { return *presets ? print_presets() : print_variants(*stage); };
 }
 
 const RegisteredCommand registered_variants{100, add_variants_command};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "eval/report/rim_marks.h"
 #include "eval/report/turned.h"
 
 namespace dressform {
@@ -13,6 +14,7 @@ namespace {
 constexpr int kHeight = 420;
 const cv::Scalar kSkinColor(150, 190, 235), kTopColor(200, 120, 40), kBottomColor(60, 160, 60);
 const Eigen::Vector3f kGarmentColor(0.55f, 0.66f, 0.82f);
+const Eigen::Vector3f kSeenRim(0.10f, 0.30f, 0.65f), kUnseenRim(0.95f, 0.50f, 0.05f);
 
 // Distinct colours for the views, RGB.
 Eigen::Vector3f view_color(int view) {
@@ -212,6 +214,27 @@ std::vector<Figure> garment_figures(const Garments& garments, double heading, co
   return figures;
 }
 
+// The opened garments, their rims marked.
+std::vector<Figure> open_figures(const OpenGarments& opened, double heading, Renderer& renderer) {
+  std::vector<Figure> figures;
+  for (const auto& [slot, garment] : opened.garments) {
+    const RimMarks marks = rim_marks(garment);
+    const Mesh meshes[] = {turned(garment.mesh, heading), turned(marks.seen, heading), turned(marks.unseen, heading)};
+    const Eigen::Vector3f colors[] = {kGarmentColor, kSeenRim, kUnseenRim};
+    std::vector<RenderItem> items;
+    for (int i = 0; i < 3; ++i) {
+      if (meshes[i].triangles.empty()) continue;
+      items.emplace_back();
+      items.back().mesh = &meshes[i];
+      items.back().color = colors[i];
+    }
+    std::string caption = "Opened at its rims (blue); the inside is drawn darker.";
+    if (!marks.unseen.triangles.empty()) caption += " No view saw the orange ones: carried on from what was seen.";
+    add(figures, "open_" + slot, slot, caption, four_views(renderer, items, kHeight));
+  }
+  return figures;
+}
+
 std::vector<Figure> texture_figures(const Reconstruction& reconstruction, double heading, Renderer& renderer) {
   std::vector<Figure> figures;
   for (const auto& [slot, garment] : reconstruction.textured.get().garments) {
@@ -243,8 +266,7 @@ std::vector<StageFigures> stage_figures(const Reconstruction& reconstruction, co
   const auto mesh_of = [](const auto& garment) -> const Mesh& { return garment.mesh; };
   stages.push_back({"surface", garment_figures(reconstruction.closed.get().garments, heading, "surface",
                                                "Closed surface.", renderer, mesh_of)});
-  stages.push_back({"open", garment_figures(reconstruction.opened.get().garments, heading, "open",
-                                            "Opened at its rims; the inside is drawn darker.", renderer, mesh_of)});
+  stages.push_back({"open", open_figures(reconstruction.opened.get(), heading, renderer)});
   stages.push_back({"texture", texture_figures(reconstruction, heading, renderer)});
   if (reconstruction.user) {
     const double user_heading = scan_heading(reconstruction.user->get());

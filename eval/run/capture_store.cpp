@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/run/truth_hash.h"
+#include "pipeline/run/place_folder.h"
 #include "scenes/capture_session.h"
 #include "scenes/file_bytes.h"
 #include "scenes/ground_truth.h"
@@ -39,9 +40,9 @@ Recipe recipe_of(const Scene& scene, double scale, Seed seed) {
   return recipe;
 }
 
-// Hash over the capture with its truth: the session's own hash leaves the truth out.
+// Hash over the capture with truth and picks: the session's own hash leaves them out.
 std::string whole_hash(const fs::path& session) {
-  return hash_hex(session_content_hash(session) + " " + truth_hash(session));
+  return hash_hex(session_content_hash(session) + " " + truth_hash(session) + " " + picks_content_hash(session));
 }
 
 // The record of an intact capture; null otherwise.
@@ -59,27 +60,39 @@ json intact_record(const fs::path& folder) {
 
 }  // namespace
 
+std::string scene_hash(const Scene& scene) {
+  std::string text = hash_hex(scene.toml);
+  for (const auto& file : own_files(scene)) text += " " + hash_file(file);
+  return hash_hex(text);
+}
+
 StoredCapture stored_capture(const Scene& scene, double scale, Seed seed, ArtifactStore& store,
                              const SynthesisProgress& progress) {
   const Recipe recipe = recipe_of(scene, scale, seed);
-  const fs::path folder = store.folder(recipe), session = folder / "session";
-  if (const json record = intact_record(folder); !record.is_null())
+  const fs::path at = store.folder(recipe), session = at / "session";
+  if (const json record = intact_record(at); !record.is_null())
     return {session, recipe, record.value("seconds", 0.0), record.value("peak_memory_mb", 0.0), true};
 
-  fs::remove_all(folder);
   reset_peak_memory();
   const auto start = std::chrono::steady_clock::now();
   const auto capture = synthesize(scene, seed, progress);
-  write_capture_session(session, capture.session);
-  write_ground_truth(session, capture.truth);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const StoredCapture result{session, recipe, seconds.count(), peak_memory_mb(), false};
-  write_file_atomically(folder / "capture.json", json{{"content_hash", whole_hash(session)},
-                                                      {"key", recipe.key()},
-                                                      {"seconds", result.seconds},
-                                                      {"peak_memory_mb", result.peak_memory_mb}}
-                                                         .dump(1) +
-                                                     "\n");
+  StoredCapture result{session, recipe, 0, 0, false};
+  place_folder(
+      at,
+      [&](const fs::path& folder) {
+        write_capture_session(folder / "session", capture.session);
+        write_ground_truth(folder / "session", capture.truth);
+        if (capture.picks) write_picks(folder / "session", *capture.picks);
+        result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        result.peak_memory_mb = peak_memory_mb();
+        write_file_atomically(folder / "capture.json", json{{"content_hash", whole_hash(folder / "session")},
+                                                            {"key", recipe.key()},
+                                                            {"seconds", result.seconds},
+                                                            {"peak_memory_mb", result.peak_memory_mb}}
+                                                               .dump(1) +
+                                                           "\n");
+      },
+      [&] { return !intact_record(at).is_null(); });
   return result;
 }
 

@@ -15,6 +15,9 @@ struct StoredCapture {
   bool reused = false;
 };
 
+// Hash over the scene's text with the files it names (TOML, meshes, textures).
+std::string scene_hash(const Scene& scene);
+
 // Captures the scene, or finds the intact capture of an earlier run. Deterministic in (scene, seed).
 StoredCapture stored_capture(const Scene& scene, double scale, Seed seed, ArtifactStore& store,
                              const SynthesisProgress& progress);

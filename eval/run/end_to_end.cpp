@@ -165,15 +165,19 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
     result.scores = scores_from_json(request.output / "scores.json");
     scores_hash = folder.product_hash("scores");
   }
-  steps.run("report", hash_hex(identity + scores_hash + source.session.content_hash() + code_version("render")), [&] {
-    const ReportInput input{made,           source.session.get(),
-                            result.scores,  result.scores ? &known_truth() : nullptr,
-                            folder.facts(), result.problems};
-    return write_report(input, request.output);
-  });
+  if (request.report) {
+    const std::string report_identity =
+        hash_hex(identity + scores_hash + source.session.content_hash() + code_version("render"));
+    steps.run("report", report_identity, [&] {
+      const ReportInput input{made,           source.session.get(),
+                              result.scores,  result.scores ? &known_truth() : nullptr,
+                              folder.facts(), result.problems};
+      return write_report(input, request.output);
+    });
+    result.report = request.output / "report.html";
+  }
   folder.save();
   if (request.facts.contains("scale")) result.scale = request.facts["scale"].get<double>();
-  result.report = request.output / "report.html";
   result.records = made.records;
   return result;
 }

@@ -19,6 +19,7 @@ struct EndToEndRequest {
   ReconstructionOptions options;
   bool check_session = true;  // read and check all of it first (recordings); false: it lies in the store, intact
   int threads = 1;
+  bool report = true;                               // false: report.html and renders/ are not made
   nlohmann::json facts = nlohmann::json::object();  // more for run.json
 };
 

@@ -128,6 +128,8 @@ TEST_F(EndToEnd, ReconstructsTheSameWithoutTruthOnOneThread) {
   const fs::path copy = fresh_folder("no_truth");
   fs::copy(session(), copy / "session", fs::copy_options::recursive);
   fs::remove_all(copy / "session/truth");
+  fs::create_directories(copy / "store");
+  fs::copy(folder_ / "store/fuse", copy / "store/fuse", fs::copy_options::recursive);  // EveryFuse has one thread too
   EndToEndRequest request;
   request.session = copy / "session";
   request.output = copy / "run";

@@ -3,12 +3,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/run/calibrated_json.h"
 #include "eval/run/garments_json.h"
+#include "eval/run/rough_colors.h"
 #include "scenes/file_bytes.h"
 #include "scenes/mesh_io.h"
 
@@ -17,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+constexpr double kColorReach_m = 0.015;  // from a closed surface to the points that colour it
 
 json rows_of(const Isometry3d& transform) {
   json rows = json::array();
@@ -36,6 +40,14 @@ std::string registration_json(const Reconstruction& reconstruction) {
     const auto found = registration.converged.find(sensor);
     text["converged"][sensor] = found != registration.converged.end() && found->second;
   }
+  for (const auto& [sensor, why] : registration.problem) text["problem"][sensor] = why;
+  for (const auto& [sensor, evidence] : registration.evidence)
+    text["evidence"][sensor] = {
+        {"inlier_part", evidence.inlier_part},
+        {"residual_over_noise", evidence.residual_over_noise},
+        {"rotation_sigma_deg", std::isfinite(evidence.rotation_sigma_deg) ? json(evidence.rotation_sigma_deg) : json()},
+        {"translation_sigma_m",
+         std::isfinite(evidence.translation_sigma_m) ? json(evidence.translation_sigma_m) : json()}};
   if (reconstruction.user && !reconstruction.user->get().model_from_frame.empty())
     text["user_model_from_frame0"] = rows_of(reconstruction.user->get().model_from_frame.front());
   return text.dump(1) + "\n";
@@ -45,6 +57,13 @@ void write_png(const fs::path& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
   cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
   write_file_atomically(file, std::string(bytes.begin(), bytes.end()));
+}
+
+// The closed surface as its points colour it, to pick rims on.
+void write_colored_ply(const fs::path& file, const ClosedGarment& garment) {
+  PlyExtras extras;
+  extras.colors = rough_colors(garment.mesh, garment.support, kColorReach_m);
+  write_ply(file, garment.mesh, extras);
 }
 
 void write_textured_ply(const fs::path& file, const TexturedMesh& garment, const std::string& texture_file) {
@@ -70,6 +89,11 @@ std::vector<std::string> export_reconstruction(const Reconstruction& reconstruct
                     write_file_atomically(file, garments_json(reconstruction.opened.get()));
                   }});
   jobs.push_back({"naked_body.ply", [&](const fs::path& file) { write_ply(file, reconstruction.naked.get().body); }});
+  for (const auto& each : reconstruction.closed.get().garments) {
+    const auto* garment = &each.second;
+    jobs.push_back({each.first + "_points.ply", [=](const fs::path& file) { write_ply(file, garment->support); }});
+    jobs.push_back({each.first + "_closed.ply", [=](const fs::path& file) { write_colored_ply(file, *garment); }});
+  }
   for (const auto& each : reconstruction.textured.get().garments) {
     const auto* slot = &each.first;
     const auto* garment = &each.second;

@@ -1,12 +1,20 @@
 #include "eval/run/run_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 
 #include "pipeline/run/artifact_store.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"
+#include "scenes/temporary_files.h"
 
 namespace dressform {
 namespace {
@@ -19,6 +27,22 @@ json read_json_if_intact(const fs::path& file) {
   return in ? json::parse(in, nullptr, false) : json();
 }
 
+// Holds the folder for this process; the system lets go of it when the process ends, however it ends. Where a file
+// system knows no locks there is none.
+std::shared_ptr<int> locked(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return {};
+  std::shared_ptr<int> lock(new int(descriptor), [](int* held) {
+    close(*held);
+    delete held;
+  });
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw InputError("-o " + folder.string(),
+                     "another run is writing into this folder; expected a folder of its own for each (they may share a "
+                     "store)");
+  return lock;
+}
+
 std::string processor_name() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
@@ -29,14 +53,31 @@ std::string processor_name() {
 }  // namespace
 
 void RunFolder::check(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_directory(folder))
-    throw InputError("-o " + folder.string(), "is a file; expected a folder for the run");
-  if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / "run.json"))
+  fs::path there = fs::absolute(folder).lexically_normal();  // the nearest folder above that is there takes it
+  while (!fs::exists(there) && there.has_relative_path()) there = there.parent_path();
+  if (fs::is_directory(there) && access(there.c_str(), W_OK) != 0)
+    throw InputError("-o " + folder.string(),
+                     there.string() + " cannot be written (" + std::strerror(errno) + "); expected a folder that can");
+  if (there != fs::absolute(folder).lexically_normal() && !fs::is_directory(there))
+    throw InputError("-o " + folder.string(), there.string() + " is a file; expected a folder to put the run in");
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw InputError("-o " + folder.string(), "is a file; expected a folder for the run");
+  // A run that was killed at once may have left half a run.json.
+  const bool others = std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) {
+    return !is_temporary_name(entry.path().filename().string());
+  });
+  if (others && !fs::exists(folder / "run.json"))
     throw InputError("-o " + folder.string(), "is not empty and holds no run.json; expected a new folder or a run's");
 }
 
 RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), facts_(json::object()), products_(json::object()) {
   check(folder_);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error)
+    throw InputError("-o " + folder_.string(), "cannot be made (" + error.message() + "); expected a writable folder");
+  lock_ = locked(folder_);
+  for (const char* each : {".", "renders"}) remove_stale_temporaries(folder_ / each);
   const bool used = fs::exists(folder_ / "run.json");
   const json old = read_json_if_intact(folder_ / "run.json");
   if (old.is_object() && old.contains("products") && old["products"].is_object()) products_ = old["products"];

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ class RunFolder {
   // Throws InputError when `folder` is a file, or holds other things than a run. Writes nothing.
   static void check(const std::filesystem::path& folder);
 
-  // Checks, then opens or creates the folder.
+  // Checks, then opens or creates the folder. One process at a time writes into it: throws InputError while another
+  // one does.
   explicit RunFolder(std::filesystem::path folder);
 
   const std::filesystem::path& path() const { return folder_; }
@@ -35,6 +37,7 @@ class RunFolder {
  private:
   bool intact(const std::string& name, const std::string& identity) const;
   std::filesystem::path folder_;
+  std::shared_ptr<int> lock_;  // descriptor of the folder, locked as long as this lives
   nlohmann::json facts_, products_;
 };
 

@@ -12,6 +12,7 @@ EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress&
   if (progress.captured) progress.captured(capture);
   EndToEndRequest pipeline{capture.session, request.output,  store.root(), request.scene.name,
                            request.variant, request.options, false,        request.threads};
+  pipeline.report = request.report;
   pipeline.facts = {{"scene_file", request.scene.file.string()},
                     {"scene_toml", request.scene.toml},
                     {"scale", request.scale},

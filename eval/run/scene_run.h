@@ -16,6 +16,7 @@ struct SceneRunRequest {
   std::string variant = "default";
   ReconstructionOptions options;
   int threads = 1;
+  bool report = true;  // see EndToEndRequest
 };
 struct SceneRunProgress {
   SynthesisProgress capture;

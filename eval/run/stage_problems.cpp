@@ -87,11 +87,12 @@ class Problems {
     for (const auto& sensor : made_.sensors) {
       const auto converged = registration.converged.find(sensor);
       if (converged != registration.converged.end() && converged->second) continue;
+      const auto problem = registration.problem.find(sensor);
       const auto inliers = registration.inliers.find(sensor);
-      add("registration", fmt::format("{} was not registered: {}", sensor,
-                                      inliers == registration.inliers.end()
-                                          ? "nothing to register it by"
-                                          : fmt::format("did not converge on {} points", inliers->second)));
+      const std::string why = problem != registration.problem.end()   ? problem->second
+                              : inliers == registration.inliers.end() ? "nothing to register it by"
+                                                                      : "did not converge";
+      add("registration", fmt::format("{} was not registered: {}", sensor, why));
     }
   }
 

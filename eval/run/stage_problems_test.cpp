@@ -154,6 +154,7 @@ TEST(StageProblems, WhatDidNotConvergeIsToldAndLosesNothing) {
   results.extracted.views.at("k2").found_dressed = false;
   results.registration.converged["k2"] = false;
   results.registration.inliers["k2"] = 120;
+  results.registration.problem["k2"] = "its residual is 7.2 times the noise";
   results.corrected.converged["top"] = false;
   results.corrected.intersecting_pairs["top"] = 7;
   results.calibrated.boards["k1"] = {};
@@ -164,7 +165,7 @@ TEST(StageProblems, WhatDidNotConvergeIsToldAndLosesNothing) {
   EXPECT_THAT(texts[0], HasSubstr("calibrate: k1 did not converge on its boards"));
   EXPECT_THAT(texts[1], HasSubstr("fuse_naked: did not converge"));
   EXPECT_THAT(texts[2], HasSubstr("extract: found no mannequin in k2's shot of the dressed one"));
-  EXPECT_THAT(texts[3], HasSubstr("registration: k2 was not registered: did not converge on 120 points"));
+  EXPECT_THAT(texts[3], HasSubstr("registration: k2 was not registered: its residual is 7.2 times the noise"));
   EXPECT_THAT(texts[4], HasSubstr("fuse_user: made no body"));
   EXPECT_THAT(texts[5], HasSubstr("correct: the top still cuts the body in 7 pairs"));
   EXPECT_FALSE(garments_missing(problems));

@@ -69,13 +69,27 @@ void refine(const cv::Mat& grey, const BoardGrid& grid, std::vector<cv::Point2f>
   rescale(corners, 1 / factor);
 }
 
-std::vector<cv::Point2f> found_at(const cv::Mat& grey, double factor, const BoardGrid& grid) {
+// How an image is searched: how much it is enlarged first, and whether at every scale.
+struct Search {
+  double factor;
+  bool exhaustive;
+};
+
+// The quickest that may do first: a good board is found by it in a quarter of the time, and the corners are refined in
+// the image itself whichever search found them. The exhaustive one takes seconds on large images that show no board.
+std::vector<Search> searches(int width) {
+  if (width >= wide_image) return {{0.5, false}, {0.5, true}, {1, true}};
+  if (width <= small_image) return {{1, false}, {2, true}, {3, false}};
+  return {{1, false}, {1, true}};
+}
+
+std::vector<cv::Point2f> found_by(const Search& search, const cv::Mat& grey, const BoardGrid& grid) {
   std::vector<cv::Point2f> corners;
-  // The exhaustive search takes seconds on large images that show no board.
-  const int flags = cv::CALIB_CB_ACCURACY | (factor <= 2 ? cv::CALIB_CB_EXHAUSTIVE : 0);
-  const bool found = cv::findChessboardCornersSB(resampled(grey, factor), {grid.columns, grid.rows}, corners, flags);
+  const int flags = cv::CALIB_CB_ACCURACY | (search.exhaustive ? cv::CALIB_CB_EXHAUSTIVE : 0);
+  const bool found =
+      cv::findChessboardCornersSB(resampled(grey, search.factor), {grid.columns, grid.rows}, corners, flags);
   if (!found || static_cast<int>(corners.size()) != grid.count()) return {};
-  rescale(corners, 1 / factor);
+  rescale(corners, 1 / search.factor);
   refine(grey, grid, corners);
   return corners;
 }
@@ -116,11 +130,8 @@ std::vector<BoardDepth> depth_on_board(const cv::Mat& depth_mm, const std::vecto
 std::vector<Vector2d> find_board(const cv::Mat& image, const BoardGrid& grid) {
   if (image.empty()) return {};
   const cv::Mat grey = stretched(image);
-  std::vector<double> factors{1};
-  if (image.cols >= wide_image) factors = {0.5, 1};
-  if (image.cols <= small_image) factors = {2, 3};
-  for (const double factor : factors) {
-    const auto corners = found_at(grey, factor, grid);
+  for (const Search& search : searches(image.cols)) {
+    const auto corners = found_by(search, grey, grid);
     if (!corners.empty()) return right_handed(corners, grid);
   }
   return {};

@@ -102,7 +102,7 @@ TEST(Correct, ClothThatTouchesNothingIsLeftAlone) {
   Case input = penetrating();
   input.fitted.garments.clear();
   input.put_on(make_tube(0.17, 1.02, 1.2));
-  for (const auto& name : Correct::names()) {
+  for (const auto& name : Correct::automatic_names()) {
     const auto result = Correct::at(name).run(input.user, input.fitted, {}, 1);
     EXPECT_EQ(result.garments.at("top").mesh.vertices, input.fitted.garments.at("top").mesh.vertices) << name;
     EXPECT_EQ(result.moved_vertices.at("top"), 0) << name;
@@ -112,7 +112,7 @@ TEST(Correct, ClothThatTouchesNothingIsLeftAlone) {
 TEST(Correct, EveryVariantPushesOutwardsAndRepeats) {
   const Case input = penetrating();
   const MeshQuery body(input.user.body);
-  for (const auto& name : Correct::names()) {
+  for (const auto& name : Correct::automatic_names()) {
     const auto result = Correct::at(name).run(input.user, input.fitted, {}, 1);
     const auto& before = input.fitted.garments.at("top").mesh;
     const auto& after = result.garments.at("top").mesh;
@@ -181,7 +181,7 @@ TEST(Correct, UglyInput) {
   FittedGarments none;
   none.garments["top"] = {};
   none.layouts["top"].kind = "shirt";
-  for (const auto& name : Correct::names()) {
+  for (const auto& name : Correct::automatic_names()) {
     EXPECT_TRUE(Correct::at(name).run(input.user, none, {}, 1).garments.at("top").mesh.vertices.empty()) << name;
     EXPECT_THROW(Correct::at(name).run(KnownBody{}, input.fitted, {}, 1), InputError) << name;
   }

@@ -36,7 +36,7 @@ struct FillTag {
 // The garments' colour and depth in every view, with what an arm hides of them filled in. In: the dressed shots, the
 // naked body and its landmarks (m, model frame), poses, labels. Out: per garment and sensor, at the sizes of colour and
 // IR images; empty masks for views that are not registered. Throws InputError for a body without triangles. The
-// thesis's (section 3.3) is thesis_random31, in the manner of texture synthesis by patches (Efros and Leung, ICCV
+// thesis's (section 3.2.2) is thesis_random31, in the manner of texture synthesis by patches (Efros and Leung, ICCV
 // 1999).
 using Fill = Stage<FillTag, FilledViews(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                         const Registration&, const Segmentation&)>;

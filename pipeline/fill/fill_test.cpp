@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "pipeline/fill/garment_depth.h"
 #include "pipeline/fill/holes.h"
 #include "pipeline/testing/analytic_scene.h"
+#include "scenes/error.h"
+#include "scenes/picks.h"
 
 namespace dressform {
 namespace {
@@ -76,7 +80,7 @@ TEST(GarmentDepth, OnlyTheGarmentAndNoEdges) {
 }
 
 TEST(Fill, TheTorsoBehindTheArm) {
-  for (const auto& variant : Fill::names()) {
+  for (const auto& variant : Fill::automatic_names()) {
     const auto filled = run(variant, true_segmentation());
     for (const char* sensor : {"k2", "k4"}) {
       const FilledGarment& top = filled.garments.at("top").at(sensor);
@@ -100,7 +104,7 @@ TEST(Fill, TheTorsoBehindTheArm) {
 }
 
 TEST(Fill, SeenPixelsKeepTheirColoursAndLabels) {
-  for (const auto& variant : Fill::names()) {
+  for (const auto& variant : Fill::automatic_names()) {
     const auto filled = run(variant, true_segmentation());
     for (const auto& [sensor, garment] : filled.garments.at("bottom")) {
       const cv::Mat own = scene().labels.at(sensor) == 3;
@@ -118,7 +122,7 @@ TEST(Fill, MissingViewAndAbsentGarment) {
   segmentation.garments.erase("bottom");
   segmentation.labels.erase("k3");
   segmentation.labels["k4"].setTo(0);
-  for (const auto& variant : Fill::names()) {
+  for (const auto& variant : Fill::automatic_names()) {
     const auto filled = run(variant, segmentation);
     EXPECT_EQ(filled.garments.count("bottom"), 0u);
     for (const char* sensor : {"k3", "k4"}) {
@@ -129,7 +133,7 @@ TEST(Fill, MissingViewAndAbsentGarment) {
 }
 
 TEST(Fill, SameWithOneThread) {
-  for (const auto& variant : Fill::names()) {
+  for (const auto& variant : Fill::automatic_names()) {
     FilledViews one;
     {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
@@ -143,6 +147,76 @@ TEST(Fill, SameWithOneThread) {
         EXPECT_EQ(cv::norm(garment.depth_mm, other.depth_mm, cv::NORM_INF), 0);
       }
     }
+  }
+}
+
+// What a person picks in k2: a region round what the arm hides of the shirt, and a block in the middle of it.
+Picks picked_in_k2() {
+  const FilledViews found = run("random31", true_segmentation());
+  const cv::Rect hole = cv::boundingRect(found.garments.at("top").at("k2").mask == 128);
+  const cv::Mat shirt = scene().labels.at("k2") == static_cast<int>(Label::top);
+  cv::Mat inside;
+  cv::distanceTransform(shirt, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::Point middle;
+  cv::minMaxLoc(inside, nullptr, nullptr, nullptr, &middle);
+  Picks picks;
+  picks.regions["region_top_k2"] = cv::Mat::zeros(shirt.size(), CV_8U);
+  picks.regions["region_top_k2"](hole) = 255;
+  picks.regions["smooth_top_k2"] = cv::Mat::zeros(shirt.size(), CV_8U);
+  picks.regions["smooth_top_k2"](cv::Rect(middle - cv::Point(4, 4), cv::Size(9, 9))) = 255;
+  return picks;
+}
+
+FilledViews run_picked(const Picks& picks, const FieldValues& values = {}) {
+  return Fill::at("thesis_random31")
+      .run_with_picks(scene().session, scene().calibration, scene().body, scene().registration, true_segmentation(),
+                      values, picks, 1);
+}
+
+std::set<int> colors_in(const cv::Mat& bgr, const cv::Mat& mask) {
+  std::set<int> colors;
+  for (int y = 0; y < bgr.rows; ++y)
+    for (int x = 0; x < bgr.cols; ++x)
+      if (mask.at<uchar>(y, x)) {
+        const auto& c = bgr.at<cv::Vec3b>(y, x);
+        colors.insert(c[0] | c[1] << 8 | c[2] << 16);
+      }
+  return colors;
+}
+
+TEST(ThesisRandom31, FillsThePickedRegionFromThePickedBlock) {
+  const Picks picks = picked_in_k2();
+  const FilledViews filled = run_picked(picks);
+  const FilledGarment& top = filled.garments.at("top").at("k2");
+  const cv::Mat &photograph = scene().session.dressed.at("k2").color, own = scene().labels.at("k2") == 2;
+  const cv::Mat &region = picks.regions.at("region_top_k2"), &block = picks.regions.at("smooth_top_k2");
+  EXPECT_EQ(cv::norm(top.mask == 128, region & ~own, cv::NORM_INF), 0);
+  const auto lent = colors_in(photograph, block), used = colors_in(top.color, top.mask == 128);
+  EXPECT_TRUE(std::includes(lent.begin(), lent.end(), used.begin(), used.end()));
+  EXPECT_GT(used.size(), lent.size() / 2);  // all of the block, not one of its pixels
+  cv::Mat difference;
+  cv::absdiff(top.color, photograph, difference);
+  difference.setTo(0, top.mask == 128);
+  EXPECT_EQ(cv::norm(difference, cv::NORM_INF), 0);
+  // Colours alone, and nothing where nothing was picked.
+  EXPECT_EQ(cv::countNonZero(top.synthetic), 0);
+  EXPECT_EQ(cv::countNonZero(filled.garments.at("top").at("k4").mask == 128), 0);
+  const FilledViews with_depth = run_picked(picks, {{"fill_depth", true}});
+  EXPECT_GT(cv::countNonZero(with_depth.garments.at("top").at("k2").synthetic), 40);
+  EXPECT_EQ(cv::countNonZero(with_depth.garments.at("top").at("k4").synthetic), 0);
+}
+
+TEST(ThesisRandom31, SaysWhatIsMissingOrOfAnotherSize) {
+  Picks without = picked_in_k2();
+  without.regions.erase("smooth_top_k2");
+  EXPECT_THROW(run_picked(without), InputError);
+  Picks other = picked_in_k2();
+  cv::resize(other.regions["region_top_k2"], other.regions["region_top_k2"], {}, 0.5, 0.5);
+  try {
+    run_picked(other);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("region_top_k2"), std::string::npos) << error.what();
   }
 }
 

@@ -24,8 +24,24 @@ FilledGarment nothing(const cv::Size& color, const cv::Size& ir) {
           cv::Mat::zeros(ir, CV_8U)};
 }
 
+const char* slot_of(Label label) { return label == Label::top ? "top" : "bottom"; }
+
+// The hole is where the person says, but for what is seen of the garment; what was found hidden counts within it alone.
+GarmentView take_picked(const cv::Mat& seen_mm, const cv::Mat& hidden_mm, const PickedHoles& picked, GarmentView view) {
+  const cv::Mat region = picked.region(slot_of(view.label), view.sensor);
+  FilledGarment& garment = view.garment;
+  cv::Mat hidden = cv::Mat::zeros(hidden_mm.size(), hidden_mm.type());
+  if (!region.empty() && picked.depth)
+    hidden_mm.copyTo(hidden, to_depth(region, color_of_depth_pixels(garment.depth_mm, view.calibration)));
+  garment.synthetic = hidden > 0;
+  garment.depth_mm = seen_mm + hidden;
+  view.map = color_depth_map(garment.depth_mm, view.calibration);
+  if (!region.empty()) garment.mask.setTo(128, region & (garment.mask == 0));
+  return view;
+}
+
 GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentView view, const PartedBody& body,
-                         const HoleParams& holes) {
+                         const HoleParams& holes, const PickedHoles* picked) {
   const cv::Mat seen = garment_depth(shot, view.label);
   const cv::Mat hidden = hidden_depth(shot, view.label, seen, view.calibration.ir, view.model_from_sensor, body, holes);
   view.garment.color = dressed.color.clone();
@@ -33,6 +49,7 @@ GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentV
   view.garment.depth_mm = seen + hidden;
   view.garment.mask = view.labels == static_cast<int>(view.label);
   view.map = color_depth_map(view.garment.depth_mm, view.calibration);
+  if (picked) return take_picked(seen, hidden, *picked, std::move(view));
   const cv::Mat filled = to_color(view.garment.synthetic, view.map);
   view.garment.mask.setTo(128, filled & (view.garment.mask == 0) & (view.labels > 0));
   return view;
@@ -58,7 +75,8 @@ bool usable(const CaptureSession& session, const Registration& registration, con
 
 FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                        const Registration& registration, const Segmentation& segmentation,
-                       const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color) {
+                       const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color,
+                       const PickedHoles* picked) {
   require_known(naked, "fill");
   const auto labels = worn(segmentation);
   const std::size_t sensors = session.sensors.size();
@@ -80,7 +98,7 @@ FilledViews fill_views(const CaptureSession& session, const Calibration& calibra
       if (!use) continue;
       view.labels = segmentation.labels.at(sensor);
       view.model_from_sensor = registration.model_from_sensor.at(sensor);
-      view = garment_view(session.dressed.at(sensor), shot, view, body, holes);
+      view = garment_view(session.dressed.at(sensor), shot, view, body, holes, picked);
     }
   });
 
@@ -90,7 +108,7 @@ FilledViews fill_views(const CaptureSession& session, const Calibration& calibra
     tbb::parallel_for(std::size_t{0}, sensors, [&](std::size_t k) {
       if (cv::countNonZero(views[g][k].garment.mask == 128) > 0) painted[k] = color(views[g], k);
     });
-    auto& garment = result.garments[labels[g] == Label::top ? "top" : "bottom"];
+    auto& garment = result.garments[slot_of(labels[g])];
     for (std::size_t k = 0; k < sensors; ++k) {
       FilledGarment filled = views[g][k].garment;
       if (!painted[k].empty()) painted[k].copyTo(filled.color, filled.mask == 128);

@@ -21,11 +21,19 @@ struct GarmentView {
 // Gives colours to one view's filled pixels (mask == 128 of views[index]); returns the 8-bit BGR image.
 using ColorFill = std::function<cv::Mat(const std::vector<GarmentView>& views, std::size_t index)>;
 
+// Holes that a person picked, in place of those that are found.
+struct PickedHoles {
+  // Of a garment ("top", "bottom") in a sensor's colour image: uint8, 255 inside, at its size; empty: none.
+  std::function<cv::Mat(const std::string& slot, const std::string& sensor)> region;
+  bool depth = false;  // whether depth is made up for what is hidden in them; else they have colours alone
+};
+
 // What all variants share: certain depth, holes and their depth, masks; `color` then paints each view. Views without
 // registration or without the garment have empty masks.
 FilledViews fill_views(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,
                        const Registration& registration, const Segmentation& segmentation,
-                       const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color);
+                       const GarmentDepthParams& depth, const HoleParams& holes, const ColorFill& color,
+                       const PickedHoles* picked = nullptr);
 
 // Description of the shared parameters, for the variants' fields().
 template <class V>

@@ -87,7 +87,7 @@ double mean_radius(const Mesh& mesh, double from, double to) {
 
 TEST(Fit, EveryVariantKeepsTrianglesAndSurvives) {
   const Try input = make_try({1.65, 1.1, 18, 2.0});
-  for (const auto& name : Fit::names()) {
+  for (const auto& name : Fit::automatic_names()) {
     const auto result = Fit::at(name).run(input.naked, input.user, input.clothes, input.layouts, {}, 1);
     ASSERT_EQ(result.garments.size(), 2u) << name;
     for (const auto& [slot, garment] : result.garments) {
@@ -177,7 +177,7 @@ TEST(Fit, MissingInputIsNamed) {
   EXPECT_TRUE(Fit::at("rbf").run(input.naked, input.user, none, {}, {}, 1).garments.empty());
   EXPECT_THROW(Fit::at("rbf").run(input.naked, input.user, input.clothes, {}, {}, 1), InputError);
   input.user = {};
-  for (const auto& name : Fit::names())
+  for (const auto& name : Fit::automatic_names())
     EXPECT_THROW(Fit::at(name).run(input.naked, input.user, input.clothes, input.layouts, {}, 1), InputError) << name;
 }
 

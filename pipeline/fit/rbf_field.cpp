@@ -42,8 +42,9 @@ Pairs merged(const std::vector<Vector3d>& controls, const std::vector<Vector3d>&
   return pairs;
 }
 
-// Conditionally positive definite: -r and r^3.
+// Conditionally positive definite: -r, r^3 and r^2 log r.
 double basis(RbfField::Kernel kernel, double r_squared) {
+  if (kernel == RbfField::Kernel::thin_plate) return r_squared > 0 ? 0.5 * r_squared * std::log(r_squared) : 0;
   const double r = std::sqrt(r_squared);
   return kernel == RbfField::Kernel::linear ? -r : r_squared * r;
 }

@@ -5,12 +5,12 @@
 
 namespace dressform {
 
-// A smooth map of space that takes control points to target points: radial basis functions of r (or r^3) with an affine
-// part (Carr et al., SIGGRAPH 2001). Both kernels grow with distance, so that cloth far from every control still moves
-// with the affine part instead of staying where it was.
+// A smooth map of space that takes control points to target points: radial basis functions of r (or r^3, r^2 log r)
+// with an affine part (Carr et al., SIGGRAPH 2001). All kernels grow with distance, so that cloth far from every
+// control still moves with the affine part instead of staying where it was.
 class RbfField {
  public:
-  enum class Kernel { linear, cubic };  // r, r^3
+  enum class Kernel { linear, cubic, thin_plate };  // r, r^3, r^2 log r
 
   // Controls closer to one another than a millimetre are merged. `smoothing` (metres for r) lets the map miss the
   // targets a little in exchange for smoothness; 0 interpolates. Fewer than four controls give a translation, and

@@ -16,18 +16,17 @@ constexpr double kDamping = 1e-9;  // the same for all others: keeps what no pai
 
 }  // namespace
 
-FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projector, int frame,
-                               const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
-                               const Isometry3d& initial, const std::vector<CorrespondenceRejector>& gates,
-                               int iterations) {
+FrameAlignment align_to_maps(const DepthMap& map, const std::vector<int>& samples, const Projector& projector,
+                             const std::vector<FixedMap>& targets, const Isometry3d& initial,
+                             const std::vector<CorrespondenceRejector>& gates, int iterations) {
   FrameAlignment result;
   result.world_from_frame = initial;
   for (const CorrespondenceRejector& gate : gates)
     for (int iteration = 0; iteration < iterations; ++iteration) {
       PairEquations sum;
-      for (const int target : targets) {
-        const PairEquations pair = pair_equations(frames.maps[frame], frames.samples[frame], frames.maps[target],
-                                                  projector, result.world_from_frame, world_from_frame[target], gate);
+      for (const FixedMap& target : targets) {
+        const PairEquations pair =
+            pair_equations(map, samples, target.map, projector, result.world_from_frame, target.world_from_map, gate);
         sum.matrix += pair.matrix;
         sum.vector += pair.vector;
         sum.squared_residual_m2 += pair.squared_residual_m2;
@@ -45,6 +44,15 @@ FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projec
       if (negligible(twist, kStill_rad, kStill_m)) break;
     }
   return result;
+}
+
+FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projector, int frame,
+                               const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
+                               const Isometry3d& initial, const std::vector<CorrespondenceRejector>& gates,
+                               int iterations) {
+  std::vector<FixedMap> fixed;
+  for (const int target : targets) fixed.push_back({frames.maps[target], world_from_frame[target]});
+  return align_to_maps(frames.maps[frame], frames.samples[frame], projector, fixed, initial, gates, iterations);
 }
 
 namespace {

@@ -15,6 +15,17 @@ struct FrameAlignment {
   bool converged = false;
 };
 
+// A depth map that stays where it is.
+struct FixedMap {
+  const DepthMap& map;
+  Isometry3d world_from_map;
+};
+
+// Aligns some points of a depth map (indices) to others that stay fixed, through the gates in turn (iterations each).
+FrameAlignment align_to_maps(const DepthMap& map, const std::vector<int>& samples, const Projector& projector,
+                             const std::vector<FixedMap>& targets, const Isometry3d& initial,
+                             const std::vector<CorrespondenceRejector>& gates, int iterations);
+
 // Aligns one frame to others whose poses stay fixed, through the gates in turn (iterations each).
 FrameAlignment align_to_frames(const ScanFrames& frames, const Projector& projector, int frame,
                                const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/fuse/frame_view.h"
 #include "pipeline/fuse/scan_frames.h"
 #include "scenes/mesh.h"
 
@@ -16,19 +17,13 @@ struct VolumeRegion {
   }
 };
 
-struct VolumeOptions {
-  double voxel_m = 0.004;
-  double truncation_m = 0.012;
-  double min_cosine = 0.3;  // between normal and line of sight, of an observation
-};
-
 // Truncated signed distances (Curless and Levoy, SIGGRAPH 1996) in blocks of 8 x 8 x 8 voxels near what was seen.
 // Distances are taken to the plane of the observation, not along the ray, and weighted by the sensor's expected noise
 // and by the square of the cosine to the line of sight. Every block is filled by one thread over the frames in order:
 // the result does not depend on the number of threads.
 class BlockVolume {
  public:
-  static constexpr int kEdge = 8, kVoxels = kEdge * kEdge * kEdge;
+  static constexpr int kEdge = VoxelBlock::kEdge, kVoxels = VoxelBlock::kVoxels;
 
   // Fuses the frames whose `used` is set; model_from_frame: IR camera poses; y up.
   BlockVolume(const ScanFrames& frames, const Camera& camera, const std::vector<Isometry3d>& model_from_frame,
@@ -40,18 +35,11 @@ class BlockVolume {
   PointCloud surface_points(int least_observations) const;
 
  private:
-  struct Block {
-    float distance[kVoxels];  // metres, positive outside
-    float weight[kVoxels];
-    std::uint16_t observations[kVoxels];
-  };
-  using Cell = Eigen::Vector3i;
+  using Cell = VoxelBlock::Cell;
 
-  static std::uint64_t key_of(const Cell& block);
-  static Cell block_of(std::uint64_t key);
   void allocate(const ScanFrames& frames, const std::vector<Isometry3d>& model_from_frame,
                 const std::vector<char>& used, const VolumeRegion& region);
-  const Block* find(const Cell& block) const;
+  const VoxelBlock* find(const Cell& block) const;
   // Distance and observations of a voxel anywhere; false when it is in no block or was never seen.
   bool read(const Cell& voxel, int least_observations, float& distance) const;
   bool gradient(const Cell& voxel, Vector3f& result) const;
@@ -59,7 +47,7 @@ class BlockVolume {
 
   VolumeOptions options_;
   std::vector<std::uint64_t> keys_;  // sorted
-  std::vector<Block> blocks_;        // as keys_
+  std::vector<VoxelBlock> blocks_;   // as keys_
 };
 
 }  // namespace dressform

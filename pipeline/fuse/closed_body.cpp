@@ -1,109 +1,18 @@
 #include "pipeline/fuse/closed_body.h"
 
-#include <tbb/parallel_for.h>
+#include <utility>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-
+#include "pipeline/fuse/body_ends.h"
 #include "pipeline/fuse/body_points.h"
 #include "pipeline/fuse/thigh_gap.h"
-#include "pipeline/geometry/lattice.h"
-#include "pipeline/geometry/mesh_cleanup.h"
-#include "pipeline/geometry/mesh_query.h"
+#include "pipeline/geometry/ball_mesh.h"
 #include "pipeline/geometry/poisson.h"
-#include "scenes/disjoint_sets.h"
 
 namespace dressform {
 namespace {
 
 constexpr double kStep_m = 0.007;         // of the lattice on which solids are changed
 constexpr double kSoleSpacing_m = 0.005;  // of the points put under the feet: about as dense as what was measured
-constexpr double kSnap = 0.3;             // of a step: what the lattice moved less goes back to the surface
-
-Mesh largest_component(const Mesh& mesh) {
-  DisjointSets sets(mesh.vertices.size());
-  for (const auto& t : mesh.triangles)
-    for (const int k : {1, 2}) sets.join(t[0], t[k]);
-  std::vector<int> count(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) ++count[sets.root(t[0])];
-  const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
-  Mesh result;
-  result.vertices = mesh.vertices;
-  for (const auto& t : mesh.triangles)
-    if (sets.root(t[0]) == best) result.triangles.push_back(t);
-  return compacted(result);
-}
-
-bool ball_shaped(const Mesh& mesh) {
-  const Topology shape = topology(mesh);
-  return shape.closed() && shape.components == 1 && shape.euler() == 2;
-}
-
-// Signed distance to the mesh. Sides far from the mesh are told apart by what can be reached from the border without
-// coming near it; far from it, where nobody looks, the distance is a constant.
-std::vector<float> distance_field(const Mesh& mesh, const Lattice& lattice) {
-  std::vector<std::uint8_t> near(lattice.count(), 0);
-  const auto first_cell = [&](double c, int axis) {
-    return std::clamp(static_cast<int>(std::floor((c - lattice.origin[axis]) / lattice.step_m)) - 1, 0,
-                      lattice.size[axis] - 1);
-  };
-  for (const auto& t : mesh.triangles) {
-    const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Vector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    for (int z = first_cell(low.z(), 2); z <= std::min(first_cell(high.z(), 2) + 3, lattice.size[2] - 1); ++z)
-      for (int y = first_cell(low.y(), 1); y <= std::min(first_cell(high.y(), 1) + 3, lattice.size[1] - 1); ++y)
-        for (int x = first_cell(low.x(), 0); x <= std::min(first_cell(high.x(), 0) + 3, lattice.size[0] - 1); ++x)
-          near[lattice.index(x, y, z)] = 1;
-  }
-  const auto far = static_cast<float>(4 * lattice.step_m);
-  std::vector<float> field(lattice.count(), -far);
-  std::vector<std::size_t> front{0};  // the border is outside
-  field[0] = far;
-  while (!front.empty()) {
-    const auto [x, y, z] = lattice.cell(front.back());
-    front.pop_back();
-    for (int k = 0; k < 6; ++k) {
-      std::array<int, 3> to{x, y, z};
-      to[k / 2] += k % 2 ? 1 : -1;
-      if (to[k / 2] < 0 || to[k / 2] >= lattice.size[k / 2]) continue;
-      const std::size_t index = lattice.index(to[0], to[1], to[2]);
-      if (near[index] || field[index] > 0) continue;
-      field[index] = far;
-      front.push_back(index);
-    }
-  }
-  const MeshQuery query(mesh);
-  tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {
-    if (near[i]) field[i] = static_cast<float>(query.signed_distance(lattice.point(i)));
-  });
-  return field;
-}
-
-// Vertices that the lattice moved a little go back to the surface they were cut from.
-void snap_to(const MeshQuery& surface, double farthest_m, Mesh& mesh) {
-  tbb::parallel_for(std::size_t{0}, mesh.vertices.size(), [&](std::size_t v) {
-    const auto closest = surface.closest(mesh.vertices[v], farthest_m);
-    if (closest.triangle >= 0) mesh.vertices[v] = closest.point;
-  });
-}
-
-// The solid without handles and hollows nearest to the field (negative inside) that came from `mesh`.
-Mesh ball_like(const Mesh& mesh, const Lattice& lattice, std::vector<float> distances) {
-  BallReport report;
-  const auto field = ball_field(lattice, std::move(distances), report);
-  if (field.empty()) return {};
-  Mesh result = edge_collapsed(lattice_surface(lattice, field), kStep_m);
-  snap_to(MeshQuery(mesh), kSnap * kStep_m, result);
-  return result;
-}
-
-Lattice lattice_round(const Mesh& mesh) {
-  Vector3d low = mesh.vertices.front(), high = low;
-  for (const auto& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return make_lattice(low, high, 6 * kStep_m, kStep_m);
-}
 
 }  // namespace
 
@@ -115,11 +24,13 @@ Mesh closed_body(const PointCloud& body, const ClosedBodyOptions& options, const
   all.normals.insert(all.normals.end(), soles.normals.begin(), soles.normals.end());
   const Mesh surface = largest_component(poisson_surface(all, options.poisson_depth));
   if (surface.triangles.empty()) return surface;
-  const Lattice lattice = lattice_round(surface);
+  const Lattice lattice = lattice_round(surface, kStep_m);
   Carved solid = carved(lattice, distance_field(surface, lattice), body, views, options.free_space);
   const bool parted = part_thighs(lattice, surface, options.thigh_gap_m, solid.field);
-  return solid.points == 0 && !parted && ball_shaped(surface) ? surface
-                                                              : ball_like(surface, lattice, std::move(solid.field));
+  const bool cut = options.cut_ends && cut_ends(lattice, surface, solid.field);
+  return solid.points == 0 && !parted && !cut && ball_shaped(surface)
+             ? surface
+             : ball_like(surface, lattice, std::move(solid.field));
 }
 
 }  // namespace dressform

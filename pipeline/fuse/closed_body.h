@@ -8,6 +8,7 @@ struct ClosedBodyOptions {
   int poisson_depth = 8;
   FreeSpaceOptions free_space;
   double thigh_gap_m = 0.012;
+  bool cut_ends = false;  // take head, neck, hands and feet off (body_ends.h)
 };
 
 // Closed, outward, one piece without handles: Poisson surface of the body's points (model frame) and of the soles under

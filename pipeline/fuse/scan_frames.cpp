@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipeline/imaging/sensor_noise.h"
+
 namespace dressform {
 namespace {
 
@@ -49,9 +51,11 @@ ScanFrames prepare_frames(const DepthScan& scan, const SensorCalibration& calibr
   DepthMapOptions options;
   options.max_depth_m = max_depth_m;
   options.shrink = std::max(1, calibration.ir.width / kWidthForTracking);
+  options.noise_factor = depth_noise_factor(frames_for_noise(scan.depth_mm), calibration.ir);
   const cv::Mat rays = normalized_grid(shrunken_camera(calibration.ir, options.shrink));
   const int count = static_cast<int>(scan.depth_mm.size());
   ScanFrames frames;
+  frames.noise_factor = options.noise_factor;
   frames.depth_m.resize(count);
   frames.maps.resize(count);
   frames.samples.resize(count);

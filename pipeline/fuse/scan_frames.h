@@ -12,6 +12,7 @@ struct ScanFrames {
   std::vector<DepthMap> maps;             // shrunken to at most ~256 pixels across
   std::vector<std::vector<int>> samples;  // per frame: indices into its map, spread evenly over directions of normals
   std::vector<char> usable;               // enough depth
+  double noise_factor = 1;                // of the sensor over the usual curve, by some of its frames
   int count() const { return static_cast<int>(maps.size()); }
   const DepthMap& first_usable() const;  // throws std::logic_error when there is none
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -14,8 +15,7 @@ namespace {
 
 constexpr double kLeastInlierPart = 0.35;  // of the points in the targets' images: a wrong place shares the floor alone
 constexpr float kUsualDistance_m = 2;      // of who walks round a body
-constexpr int kAlignmentIterations = 6;
-constexpr double kSuspiciousCost = 1.5;  // of a frame's alignment, relative to the median before
+constexpr double kSuspiciousCost = 1.5;    // of a frame's alignment, relative to the median before
 
 constexpr double kOrbitStep_deg = 3;   // starts round the object, where motion went on otherwise ...
 constexpr int kOrbitSteps = 4;         // ... to either side: 12 degrees, more than anybody turns between frames
@@ -23,10 +23,6 @@ constexpr double kLoopAngle_deg = 12;  // between the lines of sight of two fram
 constexpr int kLoopFrames = 3;         // to either side of the early frame that the late one is aligned with
 constexpr double kNoCrossing = 5e-4;   // pull of an axis towards a point in front, where the axes hardly cross
 
-// From what a hand moves between two frames down to the sensor's noise, with ever more points.
-std::vector<CorrespondenceRejector> coarse_to_fine() {
-  return {{0.2, 0.5, 4}, {0.08, 0.7, 3}, {0.04, 0.8, 2}, {0.02, 0.85, 1}};
-}
 constexpr CorrespondenceRejector kAcrossTheLoop{0.3, 0.5, 4};  // the drift of a whole walk
 
 Vector3d viewing_direction(const Isometry3d& world_from_frame) { return world_from_frame.linear().col(2); }
@@ -72,15 +68,12 @@ std::vector<Isometry3d> predictions(const Track& track, const std::vector<int>& 
 
 bool good(const FrameAlignment& alignment) { return alignment.converged && alignment.inlier_part > kLeastInlierPart; }
 
+using AlignFrame = std::function<FrameAlignment(int frame, const Isometry3d& start)>;
+
 // The best of several starts by its robust cost.
-FrameAlignment best_alignment(const ScanFrames& frames, const Projector& projector, int frame,
-                              const std::vector<int>& targets, const std::vector<Isometry3d>& world_from_frame,
-                              const std::vector<Isometry3d>& starts, const std::vector<CorrespondenceRejector>& gates) {
+FrameAlignment best_alignment(const AlignFrame& align, int frame, const std::vector<Isometry3d>& starts) {
   std::vector<FrameAlignment> results(starts.size());
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
-    results[k] =
-        align_to_frames(frames, projector, frame, targets, world_from_frame, starts[k], gates, kAlignmentIterations);
-  });
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) { results[k] = align(frame, starts[k]); });
   FrameAlignment best;
   for (const auto& each : results)
     if (good(each) && (!best.converged || each.cost < best.cost)) best = each;
@@ -124,7 +117,11 @@ Isometry3d fraction(const Isometry3d& motion, const Vector3d& centre, double par
 
 int Track::count_tracked() const { return static_cast<int>(std::count(tracked.begin(), tracked.end(), 1)); }
 
-Track track_odometry(const ScanFrames& frames, const Projector& projector) {
+std::vector<CorrespondenceRejector> coarse_to_fine() {
+  return {{0.2, 0.5, 4}, {0.08, 0.7, 3}, {0.04, 0.8, 2}, {0.02, 0.85, 1}};
+}
+
+Track follow_frames(const ScanFrames& frames, const FrameFollower& follower) {
   Track track;
   track.world_from_frame.assign(frames.count(), Isometry3d::Identity());
   track.tracked.assign(frames.count(), 0);
@@ -133,29 +130,40 @@ Track track_odometry(const ScanFrames& frames, const Projector& projector) {
   double squares = 0;
   for (int i = 0; i < frames.count(); ++i) {
     if (!frames.usable[i]) continue;
-    if (tracked.empty()) {
-      track.tracked[i] = 1;
-      tracked.push_back(i);
-      continue;
+    if (!tracked.empty()) {
+      auto starts = predictions(track, tracked, i);
+      FrameAlignment found = best_alignment(follower.align, i, starts);
+      if (!good(found) || found.cost > kSuspiciousCost * median_or(costs, 0.0)) {
+        const auto more = orbit_starts(starts.back(), object_distance(frames.maps[i]));
+        starts.insert(starts.end(), more.begin(), more.end());
+        found = best_alignment(follower.align, i, starts);
+      }
+      if (!good(found)) continue;
+      track.world_from_frame[i] = found.world_from_frame;
+      costs.push_back(found.cost);
+      squares += found.residual_rms_m * found.residual_rms_m;
     }
-    const auto targets = recent_frames(tracked);
-    auto starts = predictions(track, tracked, i);
-    FrameAlignment found =
-        best_alignment(frames, projector, i, targets, track.world_from_frame, starts, coarse_to_fine());
-    if (!good(found) || found.cost > kSuspiciousCost * median_or(costs, 0.0)) {
-      const auto more = orbit_starts(starts.back(), object_distance(frames.maps[i]));
-      starts.insert(starts.end(), more.begin(), more.end());
-      found = best_alignment(frames, projector, i, targets, track.world_from_frame, starts, coarse_to_fine());
-    }
-    if (!good(found)) continue;
-    track.world_from_frame[i] = found.world_from_frame;
     track.tracked[i] = 1;
     tracked.push_back(i);
-    costs.push_back(found.cost);
-    squares += found.residual_rms_m * found.residual_rms_m;
+    follower.tracked(i, track.world_from_frame[i]);
   }
   track.residual_rms_m = tracked.size() > 1 ? std::sqrt(squares / (tracked.size() - 1)) : 0;
   return track;
+}
+
+Track track_odometry(const ScanFrames& frames, const Projector& projector) {
+  std::vector<int> tracked;
+  std::vector<Isometry3d> world_from_frame(frames.count(), Isometry3d::Identity());
+  FrameFollower follower;
+  follower.align = [&](int frame, const Isometry3d& start) {
+    return align_to_frames(frames, projector, frame, recent_frames(tracked), world_from_frame, start, coarse_to_fine(),
+                           kAlignmentIterations);
+  };
+  follower.tracked = [&](int frame, const Isometry3d& pose) {
+    tracked.push_back(frame);
+    world_from_frame[frame] = pose;
+  };
+  return follow_frames(frames, follower);
 }
 
 Track close_loop(const ScanFrames& frames, const Projector& projector, Track track) {
@@ -168,7 +176,11 @@ Track close_loop(const ScanFrames& frames, const Projector& projector, Track tra
   const auto starts = orbit_starts(open, object_distance(frames.maps[late]));
   std::vector<CorrespondenceRejector> gates = coarse_to_fine();
   gates.insert(gates.begin(), kAcrossTheLoop);
-  const FrameAlignment found = best_alignment(frames, projector, late, targets, track.world_from_frame, starts, gates);
+  const auto align = [&](int frame, const Isometry3d& start) {
+    return align_to_frames(frames, projector, frame, targets, track.world_from_frame, start, gates,
+                           kAlignmentIterations);
+  };
+  const FrameAlignment found = best_alignment(align, late, starts);
   if (!good(found)) return track;
   track.loop_found = true;
   const Isometry3d correction = found.world_from_frame * open.inverse();

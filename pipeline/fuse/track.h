@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,23 @@ struct Track {
   int count_tracked() const;
 };
 
-// Every frame against a few frames before it, started from constant motion, and from small turns about the scanned
-// object where that fails.
+// How the frames of a walk find their places among those before them.
+struct FrameFollower {
+  // Aligns a frame, started from a pose; called by several threads at once.
+  std::function<FrameAlignment(int frame, const Isometry3d& start)> align;
+  // Called with every frame whose pose is known, in order; the first one has the identity.
+  std::function<void(int frame, const Isometry3d& world_from_frame)> tracked;
+};
+
+// Frame by frame, each started from where the last one was and from constant motion, and from small turns about the
+// scanned object where that fails.
+Track follow_frames(const ScanFrames& frames, const FrameFollower& follower);
+
+// From what a hand moves between two frames down to the sensor's noise, with ever more points.
+std::vector<CorrespondenceRejector> coarse_to_fine();
+constexpr int kAlignmentIterations = 6;  // at each of these
+
+// Every frame against a few frames before it.
 Track track_odometry(const ScanFrames& frames, const Projector& projector);
 
 // Finds where the walk comes back to its beginning, aligns the late frame with the early ones, and spreads the

@@ -119,6 +119,9 @@ BodyModel fuse_followed(const DepthScan& scan, const SensorCalibration& calibrat
   BodyModel model = fuse_tracked(scan, followed.frames, followed.track, calibration, followed.options);
   model.turned_deg = followed.turned_deg;
   model.note = followed.note;
+  if (const double factor = followed.frames.noise_factor; factor > 1)
+    model.note += (model.note.empty() ? "" : "; ") +
+                  fmt::format("depth is {:.1f} times as noisy as is usual for its distance", factor);
   if (!model.floor_seen)
     model.note += (model.note.empty() ? "" : "; ") +
                   std::string("no floor was seen: upright is as the sensor was held, and heights have no zero");

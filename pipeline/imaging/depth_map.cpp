@@ -33,12 +33,14 @@ constexpr double kEdgeSigmas = 4;  // of noise between two pixels of one surface
 
 struct Edges {
   double step_per_depth;  // largest step between neighbours of one surface, per metre of depth
+  double sigmas;          // of the usual noise that such a step may be larger
 
-  Edges(const Camera& camera, double edge_angle_deg)
-      : step_per_depth(std::tan(edge_angle_deg * M_PI / 180) / std::min(camera.fx, camera.fy)) {}
+  Edges(const Camera& camera, const DepthMapOptions& options)
+      : step_per_depth(std::tan(options.edge_angle_deg * M_PI / 180) / std::min(camera.fx, camera.fy)),
+        sigmas(kEdgeSigmas * options.noise_factor) {}
   bool between(float a, float b, double distance_px) const {
     const double near = std::min(a, b);
-    return std::abs(a - b) > distance_px * step_per_depth * near + kEdgeSigmas * axial_noise_m(near, 1);
+    return std::abs(a - b) > distance_px * step_per_depth * near + sigmas * axial_noise_m(near, 1);
   }
 };
 
@@ -158,7 +160,7 @@ cv::Mat clean_depth(const cv::Mat& depth_mm, const SensorCalibration& calibratio
                                         std::to_string(calibration.ir.width) + " x " +
                                         std::to_string(calibration.ir.height) + ", 16 bit");
   const cv::Mat all = metres(depth_mm, calibration.depth_offset_m, options);
-  const Edges edges(calibration.ir, options.edge_angle_deg);
+  const Edges edges(calibration.ir, options);
   cv::Mat result = all.clone();
   for (int y = 0; y < all.rows; ++y)
     for (int x = 0; x < all.cols; ++x)
@@ -171,8 +173,8 @@ DepthMap make_depth_map(const cv::Mat& depth_m, const Camera& camera, const cv::
   const int shrink = std::max(1, options.shrink);
   DepthMap map;
   map.camera = shrunken_camera(camera, shrink);
-  const Edges edges(map.camera, options.edge_angle_deg);
-  const cv::Mat small = shrink == 1 ? depth_m : shrunken(depth_m, shrink, Edges(camera, options.edge_angle_deg));
+  const Edges edges(map.camera, options);
+  const cv::Mat small = shrink == 1 ? depth_m : shrunken(depth_m, shrink, Edges(camera, options));
   const int width = small.cols, height = small.rows;
   map.points.assign(static_cast<std::size_t>(width) * height, Vector3f::Zero());
   map.normals.assign(map.points.size(), Vector3f::Zero());
@@ -189,7 +191,7 @@ DepthMap make_depth_map(const cv::Mat& depth_m, const Camera& camera, const cv::
       const float along = -normal.dot(direction), cosine = along / direction.norm();
       if (cosine < options.min_cosine) continue;
       map.normals[index] = normal;
-      map.sigma_m[index] = static_cast<float>(axial_noise_m(z, cosine)) * along / shrink;
+      map.sigma_m[index] = static_cast<float>(options.noise_factor * axial_noise_m(z, cosine)) * along / shrink;
       ++map.valid;
     }
   return map;

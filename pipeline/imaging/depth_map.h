@@ -36,6 +36,7 @@ struct DepthMapOptions {
   double edge_angle_deg = 80;
   int shrink = 1;           // pixels of the map average shrink x shrink pixels of the image
   double min_cosine = 0.3;  // between normal and line of sight, below which a point has no normal
+  double noise_factor = 1;  // of the sensor over the usual curve (depth_noise_factor)
 };
 
 // A depth image as points. Grids are row-major, width * height of `camera`.

@@ -177,7 +177,7 @@ TEST_P(EveryLandmarks, UglyInput) {
   EXPECT_FALSE(front_from_rig(RigPrior{}, {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, EveryLandmarks, ::testing::ValuesIn(FindLandmarks::names()),
+INSTANTIATE_TEST_SUITE_P(Variants, EveryLandmarks, ::testing::ValuesIn(FindLandmarks::automatic_names()),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "pipeline/open/caps.h"
 #include "pipeline/open/cut.h"
 #include "pipeline/open/depth_edges.h"
+#include "pipeline/open/flaw.h"
 #include "pipeline/open/mask_edges.h"
 #include "pipeline/open/open.h"
 #include "pipeline/open/openings.h"
@@ -92,17 +93,6 @@ struct CutOutcome {
 // A shirt's hem that is tucked in shows nowhere: what was fitted is the waistband over it.
 bool may_be_observed(const Opening& opening, const GarmentLayout& layout) {
   return !(opening.name == "hem" && layout.kind == "shirt" && layout.worn == Worn::under);
-}
-
-// Why the open mesh is no garment with so many openings; empty if it is one.
-std::string flaw_of(const Mesh& mesh, int openings) {
-  const Topology t = topology(mesh);
-  if (t.components != 1) return "the cut left " + std::to_string(t.components) + " pieces; expected one";
-  if (t.loops != openings)
-    return "the cut left " + std::to_string(t.loops) + " rims; expected " + std::to_string(openings);
-  if (t.non_manifold_edges) return "the cut left edges with more than two triangles";
-  if (t.euler() != 2 - openings) return "the closed surface has handles";
-  return {};
 }
 
 // Cuts at rims of the given stiffness.

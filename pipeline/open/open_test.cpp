@@ -264,7 +264,7 @@ TEST_P(EveryOpening, NothingToOpenIsNothing) {
   EXPECT_EQ(none.failed.at("top"), "there is no closed surface");
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, EveryOpening, ::testing::ValuesIn(Open::names()),
+INSTANTIATE_TEST_SUITE_P(Variants, EveryOpening, ::testing::ValuesIn(Open::automatic_names()),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -13,6 +13,7 @@ constexpr double kModelSigma = 0.0015;  // of the model's own surface, metres
 constexpr double kFloorSigma = 0.003;   // of a floor, which is never quite flat
 constexpr int kLeastInliers = 40;       // for six unknowns with much to spare
 constexpr double kReach = 1.5;          // of the loss's width: nearest points farther off are not looked for
+constexpr double kLeastSigmas = 3;      // of the view's noise, that the loss is at least wide
 constexpr double kLeastFloor_m = 0.02;  // width of the floor's loss: a floor is not as flat as a narrow loss
 constexpr double kStill_rad = 2e-5, kStill_m = 3e-5;  // steps that move no point of a body by a tenth of a millimetre
 constexpr double kFacing = 0.4;                       // cosine from which a part of the model faces the sensor
@@ -59,17 +60,18 @@ ModelEquations model_equations(const ViewPoints& view, const ModelTarget& target
   ModelEquations sum;
   const Eigen::Matrix3d& rotation = model_from_sensor.linear();
   const std::size_t body_stride = stride_for(view.body.size(), gate.most_points);
+  const double width_m = std::max(gate.distance_m, kLeastSigmas * view.body_sigma_m);
   for (std::size_t k = 0; k < view.body.size(); k += body_stride) {
     const int i = view.body[k];
     const Vector3d point = model_from_sensor * view.map.points[i].cast<double>();
     ++sum.points;
     sum.cost += 1;
     ModelTarget::Contact contact;
-    if (!target.body(point, kReach * gate.distance_m, contact)) continue;
+    if (!target.body(point, kReach * width_m, contact)) continue;
     if (contact.normal.dot(rotation * view.map.normals[i].cast<double>()) < gate.normal_cosine) continue;
     const double residual = contact.normal.dot(point - contact.point);
     // The whole distance, not only that along the normal, says whether the two belong together.
-    const Tukey tukey((point - contact.point).norm() / gate.distance_m);
+    const Tukey tukey((point - contact.point).norm() / width_m);
     if (tukey.weight == 0) continue;
     sum.cost += tukey.loss - 1;
     add_plane(sum, point, contact.normal, residual, weight_of(tukey.weight, view.map.sigma_m[i], kModelSigma));

@@ -7,6 +7,7 @@
 
 #include "pipeline/geometry/axes_crossing.h"
 #include "pipeline/geometry/floor.h"
+#include "pipeline/imaging/sensor_noise.h"
 #include "scenes/random.h"
 #include "scenes/statistics.h"
 
@@ -87,6 +88,9 @@ void sort_points(const Scene& scene, ViewPoints& view, int most_points) {
   view.body = thinned(body, most_points);
   view.floor = thinned(floor, most_points / 3);
   view.room = thinned(room, most_points / 2);
+  std::vector<float> sigmas;
+  for (const int i : view.body) sigmas.push_back(view.map.sigma_m[i]);
+  view.body_sigma_m = median_or(std::move(sigmas), 0.0f);
 }
 
 ViewPoints one_view(const Scene& scene, const Calibration& calibration, const std::string& sensor, int most_points) {
@@ -96,7 +100,9 @@ ViewPoints one_view(const Scene& scene, const Calibration& calibration, const st
   const auto own = calibration.sensors.find(sensor);
   if (shot == scene.session.naked.end() || own == calibration.sensors.end() || shot->second.depth_mm.empty())
     return view;
-  view.map = make_depth_map(shot->second.depth_mm, own->second, {});
+  DepthMapOptions options;
+  options.noise_factor = view.noise_factor = depth_noise_factor({shot->second.depth_mm}, own->second.ir);
+  view.map = make_depth_map(shot->second.depth_mm, own->second, options);
   if (scene.session.prior) {
     const auto prior = scene.session.prior->world_from_sensor.find(sensor);
     if (prior != scene.session.prior->world_from_sensor.end()) view.world_from_sensor = prior->second;

@@ -14,6 +14,8 @@ namespace dressform {
 struct ViewPoints {
   std::string sensor;
   DepthMap map;
+  double noise_factor = 1;                      // of the sensor over the usual curve, by this shot
+  double body_sigma_m = 0;                      // middle of the mannequin's points' noise
   std::vector<int> body, floor, room;           // indices into the map, evenly thinned to the asked numbers
   std::optional<Eigen::Vector4d> floor_plane;   // sensor frame, (n, d), n pointing up
   std::optional<Isometry3d> world_from_sensor;  // prior

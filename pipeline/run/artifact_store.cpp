@@ -1,12 +1,11 @@
 #include "pipeline/run/artifact_store.h"
 
-#include <unistd.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "pipeline/run/place_folder.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"
@@ -28,10 +27,6 @@ json to_json(const Recipe& recipe) {
           {"parameters", values},  {"seed", recipe.seed},       {"inputs", recipe.inputs}};
 }
 
-fs::path temporary_name(const fs::path& target) {
-  return target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
-}
-
 }  // namespace
 
 std::string Recipe::key() const {
@@ -51,6 +46,7 @@ std::optional<ArtifactRecord> ArtifactStore::find(const Recipe& recipe) const {
   try {
     if (!fs::exists(at / "artifact.json")) return {};
     const json record = json::parse(read_file_bytes(at / "artifact.json"));
+    if (record.at("key") != recipe.key()) return {};  // put under another's name by hand
     ArtifactRecord result{recipe, record.at("content_hash"), record.at("size"), record.at("seconds"),
                           record.at("peak_memory_mb")};
     if (fs::file_size(at / "data.bin") != result.size || hash_file(at / "data.bin") != result.content_hash) return {};
@@ -72,25 +68,19 @@ std::string ArtifactStore::load(const ArtifactRecord& record) const {
 ArtifactRecord ArtifactStore::save(const Recipe& recipe, const std::string& bytes, double seconds,
                                    double peak_memory_mb) {
   const ArtifactRecord record{recipe, hash_hex(bytes), bytes.size(), seconds, peak_memory_mb};
-  const fs::path target = folder(recipe), temporary = temporary_name(target);
-  fs::create_directories(target.parent_path());
-  fs::remove_all(temporary);
-  fs::create_directory(temporary);
   json text = to_json(recipe);
   text["key"] = recipe.key();
   text["content_hash"] = record.content_hash;
   text["size"] = record.size;
   text["seconds"] = seconds;
   text["peak_memory_mb"] = peak_memory_mb;
-  write_file_atomically(temporary / "data.bin", bytes);
-  write_file_atomically(temporary / "artifact.json", text.dump(1) + "\n");
-  std::error_code error;
-  if (!find(recipe)) {       // else another process was faster, with the same bytes
-    fs::remove_all(target);  // a damaged one
-    fs::rename(temporary, target, error);
-  }
-  fs::remove_all(temporary);
-  if (error && !find(recipe)) throw fs::filesystem_error("artifact store", temporary, target, error);
+  place_folder(
+      folder(recipe),
+      [&](const fs::path& made) {
+        write_file_atomically(made / "data.bin", bytes);
+        write_file_atomically(made / "artifact.json", text.dump(1) + "\n");
+      },
+      [&] { return find(recipe).has_value(); });
   return record;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "pipeline/run/place_folder.h"
 #include "pipeline/run/stage_runner.h"
 #include "scenes/error.h"
 
@@ -67,6 +68,45 @@ TEST_F(StoreTest, DamagedAndTruncatedArtifactsAreNotFoundAndCanBeMadeAgain) {
   EXPECT_FALSE(store.find(recipe()));
   store.save(recipe(), "the bytes", 0, 0);
   EXPECT_TRUE(store.find(recipe()));
+}
+
+// Two processes make one artifact at the same time: whoever comes second leaves the first one's in peace.
+TEST_F(StoreTest, WhatAnotherProcessMadeMeanwhileStays) {
+  ArtifactStore store(folder_);
+  place_folder(
+      store.folder(recipe()),
+      [&](const fs::path& mine) {
+        std::ofstream(mine / "who") << "mine";
+        ArtifactStore(folder_).save(recipe(), "the bytes", 0, 0);  // faster
+      },
+      [&] { return store.find(recipe()).has_value(); });
+  EXPECT_TRUE(store.find(recipe()));
+  EXPECT_FALSE(fs::exists(store.folder(recipe()) / "who"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "fuse"), fs::directory_iterator()), 1);
+}
+
+TEST_F(StoreTest, NothingIsLeftOfWhatCouldNotBeWritten) {
+  ArtifactStore store(folder_);
+  EXPECT_THROW(place_folder(
+                   store.folder(recipe()),
+                   [&](const fs::path& folder) {
+                     std::ofstream(folder / "half") << "x";
+                     throw InputError("data.bin", "cannot be written");
+                   },
+                   [] { return false; }),
+               InputError);
+  EXPECT_TRUE(fs::is_empty(folder_ / "fuse"));
+}
+
+TEST_F(StoreTest, AnArtifactUnderAnothersNameIsNotFound) {
+  ArtifactStore store(folder_);
+  store.save(recipe(), "the bytes", 0, 0);
+  Recipe other = recipe();
+  other.code_version = "v0";  // another version's store
+  fs::create_directories(store.folder(other).parent_path());
+  fs::rename(store.folder(recipe()), store.folder(other));
+  EXPECT_FALSE(store.find(other));
+  EXPECT_FALSE(store.find(recipe()));
 }
 
 TEST_F(StoreTest, LeavesNoTemporaryFiles) {

@@ -11,7 +11,8 @@ struct AnyStage {
 template <class StageType>
 AnyStage describe() {
   StageDescription description{StageType::name(), StageType::default_variant(), {}};
-  for (const auto& name : StageType::names()) description.variants.push_back({name, StageType::at(name).fields});
+  for (const auto& name : StageType::names())
+    description.variants.push_back({name, StageType::at(name).fields, StageType::at(name).picks});
   return {description,
           [](const std::string& variant, const FieldValues& values) { StageType::at(variant).complete(values); }};
 }

@@ -62,18 +62,25 @@ void check_reconstructible(const nlohmann::json& index, const std::string& file)
   }
 }
 
+std::optional<LazyArtifact<Picks>> picks_of(const fs::path& session) {
+  if (!fs::exists(session / kPicksFolder)) return {};
+  return LazyArtifact<Picks>(picks_content_hash(session), [session] { return read_picks(session).value(); });
+}
+
 }  // namespace
 
 SessionSource open_session(const fs::path& folder, bool check) {
   const fs::path at = fs::absolute(folder);
   const LazyArtifact<CaptureSession> lazy(session_content_hash(at), [at] { return read_capture_session(at); });
   if (check) lazy.get();
+  const auto picks = picks_of(at);
+  if (check && picks) picks->get();
   const auto index = read_index(at / "session.json");
   try {
     check_reconstructible(index, (at / "session.json").string());
     const auto& scans = index.at("scans");
     const std::string naked = scans.at("scan_naked").at("sensor");
-    SessionSource source{lazy, scan_of(at, lazy, "scan_naked", naked), {}, index.at("sensors"), naked, {}};
+    SessionSource source{lazy, scan_of(at, lazy, "scan_naked", naked), {}, index.at("sensors"), naked, {}, picks};
     if (scans.contains("scan_user")) {
       source.scan_user_sensor = scans.at("scan_user").at("sensor");
       source.scan_user = scan_of(at, lazy, "scan_user", source.scan_user_sensor);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "pipeline/reconstruct.h"
+#include "scenes/picks.h"
 #include "scenes/serialize.h"
 
 namespace dressform {
@@ -19,14 +20,18 @@ class StageRunner {
   LazyArtifact<typename StageType::Output> run(const std::string& label, const LazyArtifact<In>&... inputs) {
     using Out = typename StageType::Output;
     const auto& entry = chosen<StageType>();
-    const Recipe recipe = recipe_of<StageType>(entry, {inputs.content_hash()...});
+    std::vector<std::string> used{inputs.content_hash()...};
+    if (!entry.picks.empty()) used.push_back(picks_.value().content_hash());
+    const Recipe recipe = recipe_of<StageType>(entry, std::move(used));
     auto artifact = store_.find(recipe);
     begin(label, recipe, artifact.has_value());
     std::optional<Out> value;
     if (!artifact) {
       reset_peak_memory();
       const auto start = std::chrono::steady_clock::now();
-      value = entry.run(inputs.get()..., recipe.values, recipe.seed);
+      value = entry.picks.empty()
+                  ? entry.run(inputs.get()..., recipe.values, recipe.seed)
+                  : entry.run_with_picks(inputs.get()..., recipe.values, picks_.value().get(), recipe.seed);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       artifact = store_.save(recipe, to_bytes(*value), seconds.count(), peak_memory_mb());
     }
@@ -39,6 +44,9 @@ class StageRunner {
   }
 
   const std::vector<StageRecord>& records() const { return records_; }
+
+  // What variants that ask for picks are given from now on; no key of any other depends on it.
+  void set_picks(LazyArtifact<Picks> picks) { picks_ = std::move(picks); }
 
  private:
   template <class StageType>
@@ -68,6 +76,7 @@ class StageRunner {
   ArtifactStore& store_;
   StageProgress progress_;
   std::vector<StageRecord> records_;
+  std::optional<LazyArtifact<Picks>> picks_;
 };
 
 }  // namespace dressform

@@ -4,14 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/garment/garment_ends.h"
-#include "pipeline/garment/garment_kind.h"
-#include "pipeline/garment/worn_order.h"
 #include "pipeline/geometry/lattice.h"
 #include "pipeline/geometry/mesh_cleanup.h"
+#include "pipeline/surface/cloths.h"
 #include "pipeline/surface/covered_body.h"
 #include "pipeline/surface/extrapolated.h"
-#include "pipeline/surface/garment_cloud.h"
 #include "pipeline/surface/layer_space.h"
 #include "pipeline/surface/leg_hulls.h"
 #include "pipeline/surface/offset_field.h"
@@ -150,52 +147,6 @@ std::optional<ClosedGarment> make_garment(GarmentCloud cloud, const GarmentLayou
   return garment;
 }
 
-// A cleaned cloud says more of a garment than labelled pixels do: where it ends, and whether there are legs in it,
-// unless the pixels were surer of that.
-GarmentLayout refined(GarmentLayout layout, const PointCloud& cloud, const MeshQuery& naked, const Landmarks& limbs) {
-  if (!layout.upper())
-    if (const FoundKind found = bottom_kind(cloud.points, limbs); found.sure > layout.sure_kind) {
-      layout.kind = found.kind;
-      layout.sure_kind = found.sure;
-    }
-  return with_ends(std::move(layout), cloud.points, naked, limbs);
-}
-
-// Clouds that are large enough to make a surface of, and what they say of their garments.
-struct Cloths {
-  std::map<std::string, GarmentCloud> clouds;
-  GarmentLayouts layouts;
-};
-Cloths gather(const CaptureSession& session, const FilledViews& filled, const GarmentLayouts& segmented,
-              const std::vector<DepthView>& views, const MeshQuery& naked, const Landmarks& limbs,
-              const LayerParams& params) {
-  Cloths result;
-  for (const auto& [name, layout] : segmented) {
-    GarmentCloud cloud = garment_cloud(name, filled, views, session, naked, limbs, params.cloud);
-    if (static_cast<int>(cloud.cloud.points.size()) < params.fewest_points) continue;
-    result.layouts.emplace(name, refined(layout, cloud.cloud, naked, limbs));
-    result.clouds.emplace(name, std::move(cloud));
-  }
-  if (result.clouds.size() < 2) return result;
-  GarmentLayout &top = result.layouts.at("top"), &bottom = result.layouts.at("bottom");
-  const WornOrder order = worn_order(result.clouds["top"].cloud, result.clouds["bottom"].cloud, naked, limbs);
-  top.worn = order.top;
-  bottom.worn = order.top == Worn::under ? Worn::over : Worn::under;
-  top.sure_worn = bottom.sure_worn = order.sure;
-  if (bottom.worn == Worn::under) bottom = up_to_the_waist(bottom, top, limbs);
-  return result;
-}
-
-// The kind that a closed surface is, which decides how many openings can be cut.
-void take_kind_of_surface(const Landmarks& limbs, ClosedGarment& garment) {
-  GarmentLayout& layout = garment.layout;
-  if (layout.upper()) return;
-  const FoundKind found = closed_bottom_kind(garment.mesh, limbs, {layout.kind, layout.sure_kind});
-  layout.kind = found.kind;
-  layout.sure_kind = found.sure;
-  for (int side = 0; side < 2; ++side) layout.legs[side].covered = limbs.leg(side) && layout.forked();
-}
-
 // The garment as a layer round the body: its ease, the distance off the covered part of the naked body, is known where
 // views saw cloth and harmonic in between; space that a view sees through is carved; what is inside is shaped into a
 // ball (no webs between arm and torso that close a ring) and its surface is taken with marching tetrahedra.
@@ -205,7 +156,8 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
   require_known(naked, "surface.layer");
   const MeshQuery query(naked.body);
   const auto views = depth_views(session, calibration, registration.model_from_sensor);
-  Cloths cloths = gather(session, filled, segmented, views, query, naked.landmarks, params);
+  Cloths cloths =
+      gather_cloths(session, filled, segmented, views, query, naked.landmarks, params.cloud, params.fewest_points);
   ClosedGarments closed;
   std::optional<Outer> outer;
   for (const char* name : {"top", "bottom"}) {  // the top hangs over the bottom, unless it is tucked in
@@ -218,9 +170,7 @@ ClosedGarments layer(const CaptureSession& session, const Calibration& calibrati
     if (layout.worn != Worn::under) outer.emplace(Outer{MeshQuery(garment->mesh), layout.bottom_y});
     closed.garments.emplace(name, std::move(*garment));
   }
-  if (closed.garments.size() < 2)
-    for (auto& [name, garment] : closed.garments) garment.layout.worn = Worn::alone;
-  return closed;
+  return with_order_settled(std::move(closed));
 }
 
 const Surface::Variant layer_variant{"layer", layer};

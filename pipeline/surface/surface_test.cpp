@@ -19,9 +19,14 @@ const figure::Capture& shirt_and_trousers() {
   return capture;
 }
 
-ClosedGarments run(const std::string& variant, const figure::Capture& c) {
+ClosedGarments run(const std::string& variant, const figure::Capture& c, const FieldValues& values = {}) {
   return Surface::at(variant).run(c.session, c.calibration, c.body, c.registration, c.filled, c.segmentation.garments,
-                                  {}, 1);
+                                  values, 1);
+}
+
+// Where no figure is asked for, a coarser octree does.
+FieldValues coarse(const std::string& variant) {
+  return variant == "poisson" ? FieldValues{{"depth", 6}} : FieldValues{};
 }
 
 // Distances of vertices to the true cloth, ends and their margins left out.
@@ -114,7 +119,8 @@ TEST_P(EverySurface, IsClosedOnePieceAndCloseToTheCloth) {
     EXPECT_EQ(t.vertices, static_cast<int>(garment.mesh.vertices.size())) << name;
     const auto error = errors(garment.mesh, name, capture.clothes);
     EXPECT_LT(error[error.size() / 2], 0.0025) << name;
-    EXPECT_LT(error[error.size() * 9 / 10], 0.010) << name;
+    const bool best = GetParam() == "layer";  // the others web what lies close together
+    EXPECT_LT(error[error.size() * 9 / 10], best ? 0.010 : 0.015) << name;
     RecordProperty(name + "_median_um", static_cast<int>(1e6 * error[error.size() / 2]));
     EXPECT_GT(garment.support.points.size(), 1000u);
     EXPECT_EQ(garment.support.points.size(), garment.support.normals.size());
@@ -127,7 +133,7 @@ TEST_P(EverySurface, DoesNotDependOnTheNumberOfThreads) {
   std::vector<ClosedGarments> results;
   for (const int threads : {1, 2}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    results.push_back(run(GetParam(), capture));
+    results.push_back(run(GetParam(), capture, coarse(GetParam())));
   }
   ASSERT_EQ(results[0].garments.size(), results[1].garments.size());
   for (const auto& [name, garment] : results[0].garments) {
@@ -144,7 +150,7 @@ TEST_P(EverySurface, MissingViewsAndGarments) {
   capture.registration.model_from_sensor.erase("k2");
   capture.filled.garments["top"].erase("k3");
   capture.filled.garments.erase("bottom");
-  const ClosedGarments closed = run(GetParam(), capture);
+  const ClosedGarments closed = run(GetParam(), capture, coarse(GetParam()));
   EXPECT_FALSE(closed.garments.count("bottom"));
   ASSERT_TRUE(closed.garments.count("top"));
   EXPECT_TRUE(topology(closed.garments.at("top").mesh).closed());
@@ -152,14 +158,14 @@ TEST_P(EverySurface, MissingViewsAndGarments) {
 
   for (auto& [name, garment] : capture.filled.garments["top"])  // next to nothing seen: no garment
     garment.depth_mm(cv::Rect(0, 0, garment.depth_mm.cols, garment.depth_mm.rows - 58)) = 0;
-  EXPECT_FALSE(run(GetParam(), capture).garments.count("top"));
+  EXPECT_FALSE(run(GetParam(), capture, coarse(GetParam())).garments.count("top"));
   capture.registration.model_from_sensor.clear();
-  EXPECT_TRUE(run(GetParam(), capture).garments.empty());
+  EXPECT_TRUE(run(GetParam(), capture, coarse(GetParam())).garments.empty());
   capture.body = {};
-  EXPECT_THROW(run(GetParam(), capture), InputError);
+  EXPECT_THROW(run(GetParam(), capture, coarse(GetParam())), InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, EverySurface, ::testing::ValuesIn(Surface::names()),
+INSTANTIATE_TEST_SUITE_P(Variants, EverySurface, ::testing::ValuesIn(Surface::automatic_names()),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -58,7 +58,7 @@ double psnr(const TexturedMesh& garment, const TubeScene::Print& print) {
 }
 
 class EveryVariant : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Texture, EveryVariant, testing::ValuesIn(Texture::names()),
+INSTANTIATE_TEST_SUITE_P(Texture, EveryVariant, testing::ValuesIn(Texture::automatic_names()),
                          [](const auto& info) { return info.param; });
 
 TEST_P(EveryVariant, BringsBackTheCheckedTube) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/core.hpp>
 #include <set>
 #include <tuple>
 

@@ -7,6 +7,7 @@
 #include "scenes/image_file.h"
 #include "scenes/import/import.h"
 #include "scenes/import/opencv_yaml.h"
+#include "scenes/import/rational_lens.h"
 #include "scenes/session_limits.h"
 
 // Folders of iai_kinect2 (Wiedemeyer, University of Bremen, 2014-2015): shots NNNN_sync_color.png, NNNN_sync_ir.png,
@@ -84,8 +85,27 @@ std::vector<RecordedFrame> frames_for(const fs::path& folder, const RecordingUse
   return frames;
 }
 
-// Camera of the size of `image`.
-Camera read_camera(const fs::path& file, cv::Size size) {
+// A camera whose file has OpenCV's rational lens: the polynomial one that comes nearest over the image.
+Camera without_rational_lens(const fs::path& file, const OpenCvYaml& yaml, const Camera& camera, const cv::Mat& d,
+                             std::vector<std::string>& notes) {
+  constexpr double kWorstLens_px = 1;  // root mean square over the image: corners are found to a tenth of it
+  constexpr double kFarthest = 3;      // radius at focal length 1: 72 degrees off the axis, farther than these see
+  const auto at = [&](int i) { return d.at<double>(i); };
+  const auto fit = with_polynomial_lens(camera, {{at(0), at(1), at(4), at(5), at(6), at(7)}, at(2), at(3)}, kFarthest);
+  if (!(fit.rms_px <= kWorstLens_px))
+    yaml.fail("distortionCoefficients",
+              fmt::format("found a rational lens of {} coefficients that the five of a session miss by {:.1f} px; "
+                          "expected at most {:g} px (calibrate with five)",
+                          d.total(), fit.rms_px, kWorstLens_px));
+  notes.push_back(fmt::format("{}: eight coefficients of the lens became five, off by {:.2f} px rms, {:.2f} px at most",
+                              file.filename().string(), fit.rms_px, fit.worst_px));
+  return fit.camera;
+}
+
+enum class Images { raw, rectified };
+
+// Camera of images of this size; of rectified ones without a lens.
+Camera read_camera(const fs::path& file, cv::Size size, Images images, std::vector<std::string>& notes) {
   const OpenCvYaml yaml(file);
   const cv::Mat k = yaml.matrix("cameraMatrix", 3, 3), d = yaml.matrix("distortionCoefficients", 0, 0);
   Camera camera{size.width,         size.height, k.at<double>(0, 0), k.at<double>(1, 1), k.at<double>(0, 2),
@@ -95,19 +115,25 @@ Camera read_camera(const fs::path& file, cv::Size size) {
               fmt::format("found a principal point of {:.0f}, {:.0f} for images of {} x {}; expected the "
                           "camera of images of this size",
                           camera.cx, camera.cy, size.width, size.height));
-  if (std::min(d.rows, d.cols) != 1 || d.total() < 4)
+  const int coefficients = static_cast<int>(d.total());
+  if (std::min(d.rows, d.cols) != 1 || coefficients < 4)
     yaml.fail("distortionCoefficients", "found a matrix; expected a row of 5 numbers");
-  for (int i = 0; i < static_cast<int>(d.total()); ++i) {
-    if (i < 5) camera.distortion[i] = d.at<double>(i);
-    if (i >= 5 && d.at<double>(i) != 0)
-      yaml.fail("distortionCoefficients", fmt::format("found {} coefficients (the rational model); expected 5, which "
-                                                      "is all that a session's cameras have",
-                                                      d.total()));
+  bool rational = false;
+  for (int i = 0; i < coefficients; ++i) {
+    if (i < 5 && images == Images::raw) camera.distortion[i] = d.at<double>(i);
+    if (i >= 5 && d.at<double>(i) != 0) rational = true;
+    if (i >= 8 && d.at<double>(i) != 0)
+      yaml.fail("distortionCoefficients",
+                fmt::format("found {} coefficients, and not 0 those of a thin prism or a tilted sensor; expected 5, or "
+                            "8 of the rational model",
+                            coefficients));
   }
+  if (rational && coefficients < 8)
+    yaml.fail("distortionCoefficients", fmt::format("found {} coefficients; expected 4, 5 or 8", coefficients));
   if (const auto found = problem_with(camera))
     yaml.fail(found->field == "distortion" ? "distortionCoefficients" : "cameraMatrix",
               found->field + ": " + found->problem);
-  return camera;
+  return rational && images == Images::raw ? without_rational_lens(file, yaml, camera, d, notes) : camera;
 }
 
 Isometry3d read_step(const fs::path& file) {
@@ -131,13 +157,12 @@ void read_rectified_calibration(const fs::path& folder, Recording& recording) {
   Camera& camera = recording.sensor.ir;
   if (on_color) {  // its matrix divided by the scale, as kinect2_bridge does
     const double scale = static_cast<double>(size.width) / color_width;
-    camera = read_camera(file, {color_width, color_height});
+    camera = read_camera(file, {color_width, color_height}, Images::rectified, recording.notes);
     camera.width = size.width, camera.height = size.height;
     camera.fx *= scale, camera.fy *= scale, camera.cx *= scale, camera.cy *= scale;
   } else {
-    camera = read_camera(file, size);
+    camera = read_camera(file, size, Images::rectified, recording.notes);
   }
-  camera.distortion = {};
   recording.calibrated = true;
   recording.notes.push_back("images of kinect2_viewer: rectified and shifted by it");
 }
@@ -155,10 +180,11 @@ void read_calibration(const fs::path& folder, const RecordingUse& use, Recording
   } else if (!has("calib_ir.yaml")) {
     return;
   }
-  recording.sensor.ir = read_camera(folder / "calib_ir.yaml", read_image(first.depth, kDepthImage).size());
+  recording.sensor.ir =
+      read_camera(folder / "calib_ir.yaml", read_image(first.depth, kDepthImage).size(), Images::raw, recording.notes);
   if (use != RecordingUse::scan) {
     const cv::Size size = read_image(first.color, kColorOrGreyImage).size();
-    recording.sensor.color = read_camera(folder / "calib_color.yaml", size);
+    recording.sensor.color = read_camera(folder / "calib_color.yaml", size, Images::raw, recording.notes);
     recording.sensor.color_from_ir = read_step(folder / "calib_pose.yaml");
     if (const auto found = problem_with(recording.sensor))
       throw InputError((folder / "calib_pose.yaml").string() + ": translation", found->problem);

@@ -138,6 +138,24 @@ TEST_F(ImportKinect2, WhatTheViewerSavesIsRectifiedAndShiftedAlready) {
   EXPECT_EQ(sensor.ir.distortion[0], 0);
 }
 
+// Directions land where OpenCV's rational model puts them, with the five coefficients that a session has.
+TEST_F(ImportKinect2, ARationalLensBecomesThePolynomialNearestToIt) {
+  calibrate();
+  const std::array<double, 8> d{0.45, -0.32, 1e-3, -2e-3, 0.02, 0.36, -0.2, 0.05};  // k1 k2 p1 p2 k3 k4 k5 k6
+  write("calib_ir.yaml", yaml_camera("45.5, 0., 31.5, 0., 45.25, 26.25, 0., 0., 1.",
+                                     "0.45, -0.32, 1e-3, -2e-3, 0.02, 0.36, -0.2, 0.05", 8));
+  const Camera found = imported(of("iai_kinect2", "naked")).calibration->sensors.at("k1").ir;
+  EXPECT_THAT(report_.notes, testing::Contains(HasSubstr("calib_ir.yaml: eight coefficients of the lens became five")));
+  for (const Vector2d& at : {Vector2d(0, 0), Vector2d(0.3, 0.2), Vector2d(-0.5, 0.3), Vector2d(0.4, -0.4)}) {
+    const double s = at.squaredNorm();
+    const double k = (1 + s * (d[0] + s * (d[1] + s * d[4]))) / (1 + s * (d[5] + s * (d[6] + s * d[7])));
+    const Vector2d tangential(2 * d[2] * at.x() * at.y() + d[3] * (s + 2 * at.x() * at.x()),
+                              d[2] * (s + 2 * at.y() * at.y()) + 2 * d[3] * at.x() * at.y());
+    const Vector2d wanted = (k * at + tangential).cwiseProduct(Vector2d(45.5, 45.25)) + Vector2d(31.5, 26.25);
+    EXPECT_LT((found.project(Vector3d(at.x(), at.y(), 1)) - wanted).norm(), 0.05) << at.transpose();
+  }
+}
+
 TEST_F(ImportKinect2, ImageErrors) {
   fs::remove(recording_ / "0003_sync_ir.png");
   EXPECT_THAT(error(of("iai_kinect2")), HasSubstr("0003_sync_ir.png: is missing; expected color, ir and depth"));
@@ -165,8 +183,12 @@ TEST_F(ImportKinect2, CalibrationErrors) {
   calibrate();
   write("calib_ir.yaml", "%YAML:1.0\n" + yaml_matrix("cameraMatrix", 3, 3, "45, 0, 31, 0, 44, 26, 0, 0, 1"));
   EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: distortionCoefficients: is missing"));
-  write("calib_ir.yaml", yaml_camera("45, 0, 31, 0, 44, 26, 0, 0, 1", "0, 0, 0, 0, 0, 0.1, 0.2, 0.3", 8));
-  EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: distortionCoefficients: found 8 coefficients"));
+  write("calib_ir.yaml", yaml_camera("45, 0, 31, 0, 44, 26, 0, 0, 1", "0, 0, 0, 0, 0, 0, 0, 0, 0.1, 0, 0, 0", 12));
+  EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: distortionCoefficients: found 12 coefficients, and not 0"));
+  write("calib_ir.yaml", yaml_camera("45, 0, 31, 0, 44, 26, 0, 0, 1", "0, 0, 0, 0, 0, 0.1", 6));
+  EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: distortionCoefficients: found 6 coefficients; expected 4, 5"));
+  write("calib_ir.yaml", yaml_camera("45, 0, 31, 0, 44, 26, 0, 0, 1", "-9, 0, 0, 0, 0, 9e6, 0, 0", 8));
+  EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: distortionCoefficients: found a rational lens of 8"));
   write("calib_ir.yaml", yaml_camera("45, 0, 31, 0, .Nan, 26, 0, 0, 1", "0, 0, 0, 0, 0"));
   EXPECT_THAT(error(request), HasSubstr("calib_ir.yaml: cameraMatrix: found a number that is not finite"));
   write("calib_ir.yaml", yaml_camera("45, 0, 255, 0, 44, 26, 0, 0, 1", "0, 0, 0, 0, 0"));

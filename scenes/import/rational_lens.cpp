@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace dressform {
@@ -34,7 +35,10 @@ std::vector<double> radii_of(const Camera& camera, const RationalLens& lens, dou
 PolynomialFit with_polynomial_lens(const Camera& camera, const RationalLens& lens, double largest_radius) {
   PolynomialFit fit{camera, 0, 0};
   const auto radii = radii_of(camera, lens, largest_radius);
-  if (radii.size() < 4) return fit;
+  if (radii.size() < 4) {  // it turns back at once
+    fit.rms_px = fit.worst_px = std::numeric_limits<double>::infinity();
+    return fit;
+  }
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   const auto powers = [](double r) { return Eigen::Vector4d(r, r * r * r, std::pow(r, 5), std::pow(r, 7)); };

@@ -14,7 +14,8 @@ struct RationalLens {
 
 // A session's cameras have a polynomial lens: the one that comes nearest to `lens` over the image of `camera`, where
 // the lens still sees (radius up to `largest_radius`), by least squares over the image's area; the focal lengths take
-// up what a polynomial that starts at 1 cannot. How far it is off: pixels, root mean square and largest.
+// up what a polynomial that starts at 1 cannot. How far it is off: pixels, root mean square and largest;
+// infinite where the lens shows nothing of the image.
 struct PolynomialFit {
   Camera camera;
   double rms_px = 0, worst_px = 0;

@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 set(scenes_folder ${CMAKE_INSTALL_DATADIR}/dressform/scenes)
 install(TARGETS dressform RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY scenes/library/ DESTINATION ${scenes_folder} COMPONENT program)
+install(DIRECTORY pipeline/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/dressform/presets COMPONENT program)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # The archive is linked whole by those who use it: variants register themselves and nobody names them.

@@ -6,7 +6,8 @@ function(dressform_unity target)
   if(NOT DRESSFORM_UNITY)
     return()
   endif()
-  execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/unity_groups ${ARGN}
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/unity_groups
+                          ${CMAKE_BINARY_DIR}/unity/${target}.txt ${ARGN}
                   OUTPUT_VARIABLE groups COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
   string(REPLACE ";" "\\;" groups "${groups}")
   string(REPLACE "\n" ";" groups "${groups}")

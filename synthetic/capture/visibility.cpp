@@ -29,7 +29,8 @@ void trace_sight(const RayScene& scene, const Vector3d& eye, const Vector3d* poi
   for (int lane = 0; lane < packet_size; ++lane) clear[lane] = lane < count && !hidden[lane];
 }
 
-// For each point, whether the sensor sees it.
+}  // namespace
+
 std::vector<std::uint8_t> seen_by(const RayScene& scene, const std::vector<Vector3d>& points,
                                   const SensorSpec& sensor) {
   std::vector<std::uint8_t> seen(points.size(), 0);
@@ -43,8 +44,6 @@ std::vector<std::uint8_t> seen_by(const RayScene& scene, const std::vector<Vecto
   });
   return seen;
 }
-
-}  // namespace
 
 std::vector<std::uint8_t> count_views(const RayScene& scene, const Mesh& mesh, const std::vector<SensorSpec>& rig) {
   const std::vector<Vector3d> normals = vertex_normals(mesh);

@@ -1,0 +1,116 @@
+#include "eval/studies/make_cell.h"
+
+#include "eval/run/capture_store.h"
+#include "eval/run/scene_run.h"
+#include "scenes/capture_session.h"
+#include "scenes/scene_parts.h"
+#include "synthetic/sensors/sensor_model.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Machine {
+  fs::path study, store;
+  int threads = 1;
+};
+
+double scale_of(const StudyPlan& plan, const StudyVariant& variant) {
+  return variant.scale > 0 ? variant.scale : plan.study.scale;
+}
+
+// Files that are not the study's own may have changed since it was planned.
+void check_unchanged(const PlannedScene& scene, const std::string& hash_now) {
+  if (hash_now != scene.content_hash)
+    throw InputError(scene.path.string(), "changed since the study was planned; expected the same, or a new study");
+}
+
+void choose_sensor(Scene& scene, const VariantChoice& choice) {
+  if (!choice.variant.empty() && choice.variant != scene.sensor_model.variant)
+    scene.sensor_model = {choice.variant, {}};
+  for (const auto& [name, value] : choice.values) scene.sensor_model.values[name] = value;
+  auto& model = scene.sensor_model;
+  model.values = SensorModel::at(model.variant).complete(model.values);
+}
+
+Scene scene_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& machine) {
+  const PlannedScene& planned = plan.scenes[cell.scene];
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  Scene scene = read_scene(machine.study / planned.path);
+  check_unchanged(planned, scene_hash(scene));
+  if (!variant.rig.empty()) scene = with_rig(scene, machine.study / variant.rig);
+  if (!variant.scan.empty()) scene = with_scan(scene, machine.study / variant.scan);
+  scene = scaled(scene, scale_of(plan, variant));
+  choose_sensor(scene, variant.sensor);
+  return scene;
+}
+
+EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work,
+                              const Machine& machine, CellCost& cost) {
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  SceneRunRequest request{scene_of(plan, cell, machine),
+                          scale_of(plan, variant),
+                          work,
+                          machine.store,
+                          variant.name,
+                          variant.options,
+                          machine.threads};
+  request.options.seed = cell.seed;
+  request.report = false;
+  SceneRunProgress progress;
+  progress.captured = [&cost](const StoredCapture& capture) { cost.capture_seconds = capture.seconds; };
+  return run_scene(request, progress);
+}
+
+EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work,
+                                  const Machine& machine) {
+  const PlannedScene& planned = plan.scenes[cell.scene];
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  if (!variant.sensor.variant.empty() || !variant.rig.empty() || !variant.scan.empty() || variant.scale > 0)
+    throw InputError("variant " + variant.name,
+                     "asks for another capture, which a recording cannot give; expected "
+                     "scenes for it");
+  check_unchanged(planned, session_content_hash(machine.study / planned.path));
+  EndToEndRequest request;
+  request.session = machine.study / planned.path;
+  request.output = work;
+  request.store = machine.store;
+  request.scene = planned.name;
+  request.variant = variant.name;
+  request.options = variant.options;
+  request.options.seed = cell.seed;
+  request.threads = machine.threads;
+  request.report = false;
+  return run_end_to_end(request, {});
+}
+
+MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+  MadeCell made;
+  const bool recording = plan.scenes[cell.scene].recording;
+  const EndToEndResult result =
+      recording ? run_recording_cell(plan, cell, work, machine) : run_scene_cell(plan, cell, work, machine, made.cost);
+  made.result.id = cell.id;
+  made.result.signature = program_signature();
+  made.result.scene = plan.scenes[cell.scene].name;
+  made.result.seed = cell.seed;
+  made.result.scale = scale_of(plan, plan.study.variants[cell.variant]);
+  for (const auto& problem : result.problems) made.result.problems.push_back(problem.text());
+  if (result.scores) made.result.scores = result.scores->rows;
+  for (const auto& record : result.records) {
+    made.cost.stage_seconds.push_back({record.label, record.seconds});
+    made.cost.peak_memory_mb = std::max(made.cost.peak_memory_mb, record.peak_memory_mb);
+  }
+  return made;
+}
+
+}  // namespace
+
+MakeCell pipeline_cells(const fs::path& study, const fs::path& store, int threads) {
+  const Machine machine{study, store, threads};
+  return [machine](const StudyPlan& plan, const PlannedCell& cell, const fs::path& work) {
+    return make_cell(plan, cell, work, machine);
+  };
+}
+
+}  // namespace dressform

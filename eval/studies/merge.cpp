@@ -1,0 +1,70 @@
+#include "eval/studies/merge.h"
+
+#include <map>
+#include <optional>
+
+#include "eval/studies/cell.h"
+#include "eval/studies/plan.h"
+#include "scenes/error.h"
+#include "scenes/file_bytes.h"
+
+namespace dressform {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_same_study(const fs::path& folder, const fs::path& other) {
+  read_plan(other);
+  if (read_file_bytes(folder / "study.json") != read_file_bytes(other / "study.json"))
+    throw InputError(other.string(), "holds another study than " + folder.string() + "; expected the same study.json");
+}
+
+struct Incoming {
+  fs::path from;
+  std::string bytes;
+};
+
+}  // namespace
+
+MergeSummary merge_studies(const fs::path& folder, const std::vector<fs::path>& others) {
+  const StudyPlan plan = read_plan(folder);
+  for (const auto& other : others) check_same_study(folder, other);
+  std::map<std::string, Incoming> incoming;
+  std::optional<CellResult> first;  // whose signature all have
+  MergeSummary summary;
+  const auto check = [&](const fs::path& file) {
+    const CellResult cell = read_cell(file);
+    if (!first) first = cell;
+    const std::string other = difference_of(first->signature, cell.signature);
+    if (!other.empty())
+      throw InputError(file.string(), "has another signature (" + other + "); expected cells of one program");
+  };
+  for (const auto& cell : cells_of(plan, folder)) {
+    const fs::path own = cell_file(folder, cell.id);
+    std::string known = fs::exists(own) ? read_file_bytes(own) : std::string();
+    if (!known.empty()) check(own);
+    for (const auto& other : others) {
+      const fs::path file = cell_file(other, cell.id);
+      if (!fs::exists(file)) continue;
+      check(file);
+      const std::string bytes = read_file_bytes(file);
+      if (known.empty()) {
+        incoming[cell.id] = {other, bytes};
+        known = bytes;
+      } else if (known != bytes) {
+        throw InputError(file.string(), "differs from the same cell made elsewhere; expected the same bytes");
+      } else {
+        ++summary.known;
+      }
+    }
+  }
+  for (const auto& [id, cell] : incoming) {
+    const fs::path cost = cost_file(cell.from, id);
+    if (fs::exists(cost)) write_file_atomically(cost_file(folder, id), read_file_bytes(cost));
+    write_file_atomically(cell_file(folder, id), cell.bytes);
+    ++summary.taken;
+  }
+  return summary;
+}
+
+}  // namespace dressform

@@ -1,0 +1,39 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "eval/studies/cell.h"
+#include "eval/studies/plan.h"
+
+namespace dressform {
+
+// Makes one cell; `work` is a folder of its own for what it writes on the way. Whatever it throws makes a failed cell.
+using MakeCell = std::function<MadeCell(const StudyPlan&, const PlannedCell&, const std::filesystem::path& work)>;
+
+struct RunCellsRequest {
+  std::filesystem::path folder;
+  std::vector<std::string> only;  // ids; empty: all
+  Signature signature;            // of this program
+  bool retry_failed = false;      // failed cells once more
+  bool renew = false;             // cells of other programs anew; false: they are an error
+  bool keep_work = false;         // the runs' folders stay in work/
+};
+
+struct RunCellsProgress {
+  // A cell begins: how many are done of how many, and the seconds left (negative: not known yet).
+  std::function<void(const PlannedCell&, int done, int total, double seconds_left)> begin;
+  std::function<void(const PlannedCell&, const MadeCell&, double seconds)> end;
+};
+
+struct RunCellsSummary {
+  int made = 0, failed = 0, present = 0;  // made now (failed ones among them); there already
+};
+
+// Makes the cells that are not there yet, each written at once under its name when it is whole: a killed run goes on
+// where it was, and several processes may work on one study (they take different scenes while there are any). Throws
+// InputError for ids that the study does not have, and for cells of another program.
+RunCellsSummary run_cells(const StudyPlan& plan, const RunCellsRequest& request, const MakeCell& make,
+                          const RunCellsProgress& progress = {});
+
+}  // namespace dressform

@@ -1,0 +1,123 @@
+#include "pipeline/geometry/path_strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+#include <stdexcept>
+
+namespace dressform {
+namespace {
+
+struct Nearest {
+  const std::vector<Vector3d>& points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Nearest>, Nearest, 3>;
+
+struct Side {
+  int low, high, triangle, corner;
+  bool operator<(const Side& other) const {
+    return std::array{low, high, triangle, corner} < std::array{other.low, other.high, other.triangle, other.corner};
+  }
+};
+
+}  // namespace
+
+TriangleNeighbours triangle_neighbours(const Mesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), k});
+    }
+  std::sort(sides.begin(), sides.end());
+  TriangleNeighbours result(mesh.triangles.size(), {-1, -1, -1});
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i;
+    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
+    if (end - i == 2) {
+      result[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;
+      result[sides[i + 1].triangle][sides[i + 1].corner] = sides[i].triangle;
+    }
+    i = end;
+  }
+  return result;
+}
+
+Pieces edge_connected_pieces(const TriangleNeighbours& neighbours, const std::vector<char>& kept) {
+  if (kept.size() != neighbours.size()) throw std::invalid_argument("edge_connected_pieces: one flag per triangle");
+  Pieces pieces{std::vector<int>(kept.size(), -1), 0};
+  std::vector<int> front;
+  for (std::size_t first = 0; first < kept.size(); ++first) {
+    if (!kept[first] || pieces.of_triangle[first] >= 0) continue;
+    front.assign(1, static_cast<int>(first));
+    pieces.of_triangle[first] = pieces.count;
+    while (!front.empty()) {
+      const int at = front.back();
+      front.pop_back();
+      for (const int next : neighbours[at])
+        if (next >= 0 && kept[next] && pieces.of_triangle[next] < 0) {
+          pieces.of_triangle[next] = pieces.count;
+          front.push_back(next);
+        }
+    }
+    ++pieces.count;
+  }
+  return pieces;
+}
+
+std::vector<double> triangle_areas_m2(const Mesh& mesh) {
+  std::vector<double> areas;
+  areas.reserve(mesh.triangles.size());
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d& a = mesh.vertices[t[0]];
+    areas.push_back(0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm());
+  }
+  return areas;
+}
+
+double mean_edge_m(const Mesh& mesh) {
+  double sum = 0;
+  for (const Vector3i& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) sum += (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm();
+  return mesh.triangles.empty() ? 0 : sum / (3.0 * static_cast<double>(mesh.triangles.size()));
+}
+
+std::vector<Vector3d> path_midpoints(const MeshQuery& surface, const std::vector<Vector3d>& path, bool closed,
+                                     double longest_m) {
+  std::vector<Vector3d> points;
+  if (path.size() == 1) points = path;
+  const std::size_t segments = path.size() < 2 ? 0 : closed ? path.size() : path.size() - 1;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const Vector3d &from = path[i], &to = path[(i + 1) % path.size()];
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / longest_m)));
+    for (int k = 0; k < parts; ++k) points.push_back(from + (to - from) * ((k + 0.5) / parts));
+  }
+  for (Vector3d& point : points)
+    if (const auto closest = surface.closest(point); closest.triangle >= 0) point = closest.point;
+  return points;
+}
+
+std::vector<double> centroid_distances(const Mesh& mesh, const std::vector<Vector3d>& points) {
+  std::vector<double> distances(mesh.triangles.size(), std::numeric_limits<double>::infinity());
+  if (points.empty()) return distances;
+  const Nearest adaptor{points};
+  const Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const Vector3i& t = mesh.triangles[i];
+    const Vector3d centroid = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+    std::uint32_t nearest = 0;
+    double squared = 0;
+    if (tree.knnSearch(centroid.data(), 1, &nearest, &squared)) distances[i] = std::sqrt(squared);
+  }
+  return distances;
+}
+
+}  // namespace dressform

@@ -1,0 +1,11 @@
+#pragma once
+#include "scenes/scene.h"
+
+namespace dressform {
+
+// The scene with another rig or scan, read from a file of its own as a scene names it (`rig = "rigs/thesis.toml"`); its
+// text says so. Throws InputError with file, line and column.
+Scene with_rig(const Scene& scene, const std::filesystem::path& file);
+Scene with_scan(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace dressform
