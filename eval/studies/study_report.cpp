@@ -188,7 +188,7 @@ class ReportMaker {
   }
 
   void add_targets(const VariantSummary& summary, const std::string& stratum, ReportTable& table) const {
-    const TargetCount count = count_targets(results_, summary.variant, stratum);
+    const TargetsMet count = count_targets(results_, summary.variant, stratum);
     if (count.scenes == 0) return;
     const Interval interval = wilson_interval(count.all_met, count.scenes);
     table.rows.push_back({{name_of(summary), ""},

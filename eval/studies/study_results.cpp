@@ -148,8 +148,8 @@ std::vector<VariantSummary> compare_variants(const StudyResults& results) {
   return summaries;
 }
 
-TargetCount count_targets(const StudyResults& results, std::size_t variant, const std::string& stratum) {
-  TargetCount count;
+TargetsMet count_targets(const StudyResults& results, std::size_t variant, const std::string& stratum) {
+  TargetsMet count;
   for (std::size_t s = 0; s < results.plan.scenes.size(); ++s) {
     const auto& strata = results.plan.scenes[s].strata;
     if (!stratum.empty() && std::find(strata.begin(), strata.end(), stratum) == strata.end()) continue;

@@ -44,10 +44,10 @@ struct VariantSummary {
 std::vector<VariantSummary> compare_variants(const StudyResults& results);
 
 // Of the targets that hold at the cells' scale: in how many scenes all were met, and how many in all.
-struct TargetCount {
+struct TargetsMet {
   int scenes = 0, all_met = 0, asked = 0, met = 0;
 };
 // Over the scenes of a stratum; empty: over all.
-TargetCount count_targets(const StudyResults& results, std::size_t variant, const std::string& stratum);
+TargetsMet count_targets(const StudyResults& results, std::size_t variant, const std::string& stratum);
 
 }  // namespace dressform
