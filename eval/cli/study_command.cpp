@@ -145,10 +145,9 @@ int show_status(const StudyOptions& options) {
 }
 
 int report_study(const StudyOptions& options) {
-  const auto files = write_study_report(options.study, !options.without_seconds);
-  const StudyReport report = study_report(read_results(options.study), !options.without_seconds);
+  const WrittenReport report = write_study_report(options.study, !options.without_seconds);
   fmt::print("{}\n", report.headline);
-  for (const auto& file : files) fmt::print("{}\n", file.string());
+  for (const auto& file : report.files) fmt::print("{}\n", file.string());
   return kSuccess;
 }
 
@@ -167,7 +166,7 @@ void add_run_options(CLI::App& run, StudyOptions& options) {
   run.add_option("--part", options.part, "K/N: only the K-th of N shares of the scenes");
   run.add_flag("--retry-failed", options.retry_failed, "make failed cells once more");
   run.add_flag("--renew", options.renew, "make cells of other programs anew; otherwise they are an error");
-  run.add_flag("--keep", options.keep, "keep each run's folder (out/, scores) below work/");
+  run.add_flag("--keep", options.keep, "keep each cell's run (out/, scores) in work/<cell id>");
   add_threads(run, options);
 }
 
