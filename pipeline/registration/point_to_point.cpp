@@ -62,15 +62,16 @@ Isometry3d best_motion(const Pairs& pairs) {
 Pairs closest_pairs(const ViewPoints& view, const ModelTarget& target, const Isometry3d& model_from_sensor,
                     const ModelGate& gate) {
   Pairs pairs;
+  const double width_m = loss_width_m(view, gate.distance_m);
   for (const int i : view.body) {
     const Vector3d point = model_from_sensor * view.map.points[i].cast<double>();
     ++pairs.points;
     pairs.loss += 1;
     ModelTarget::Contact contact;
-    if (!target.body(point, kReach * gate.distance_m, contact)) continue;
+    if (!target.body(point, kReach * width_m, contact)) continue;
     if (contact.normal.dot(model_from_sensor.linear() * view.map.normals[i].cast<double>()) < gate.normal_cosine)
       continue;
-    const Tukey tukey((point - contact.point).norm() / gate.distance_m);
+    const Tukey tukey((point - contact.point).norm() / width_m);
     if (tukey.weight == 0) continue;
     pairs.loss += tukey.loss - 1;
     pairs.add(point, contact.point, tukey.weight);
