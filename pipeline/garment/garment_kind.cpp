@@ -84,6 +84,13 @@ LegVotes leg_votes(const std::vector<Vector3d>& points, const Landmarks& landmar
   return votes;
 }
 
+GarmentLayout with_kind(GarmentLayout layout, const FoundKind& found, const Landmarks& landmarks) {
+  layout.kind = found.kind;
+  layout.sure_kind = found.sure;
+  for (int side = 0; side < 2; ++side) layout.legs[side].covered = landmarks.leg(side) && layout.forked();
+  return layout;
+}
+
 FoundKind bottom_kind(const std::vector<Vector3d>& points, const Landmarks& landmarks) {
   if (!landmarks.left_leg || !landmarks.right_leg) return {"skirt", 0};  // legs that are not apart
   const LegVotes votes = leg_votes(points, landmarks);
