@@ -70,8 +70,8 @@ PickedPairs picked_pairs(const Picks& picks) {
                                 std::to_string(pairs.targets.size()) + " targets; expected one for each" + how);
   if (parts_of(picks, "control") > 1 && parts_of(picks, "target") > 1)
     throw InputError(where, "found control points in " + std::to_string(parts_of(picks, "control")) +
-                                " files and targets in " + std::to_string(parts_of(picks, "target")) +
-                                ", so that their order says nothing of which belong together; expected one file of "
+                                " frames and targets in " + std::to_string(parts_of(picks, "target")) +
+                                ", so that their order says nothing of which belong together; expected one frame of "
                                 "one of them" +
                                 how);
   if (pairs.controls.size() < kFewestPairs)

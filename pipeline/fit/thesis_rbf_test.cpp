@@ -143,7 +143,7 @@ TEST(ThesisRbf, PairsOfSeveralFramesOnBothSidesAreRefused) {
   halved("control");
   EXPECT_EQ(to_bytes(run(input, picks)), to_bytes(run(input, input.picks)));
   halved("target");
-  EXPECT_THAT(complaint(input, picks), HasSubstr("control points in 2 files and targets in 2"));
+  EXPECT_THAT(complaint(input, picks), HasSubstr("control points in 2 frames and targets in 2"));
 }
 
 }  // namespace
