@@ -214,6 +214,16 @@ std::vector<std::string> Picks::names() const {
   return result;
 }
 
+cv::Mat picked_region(const Picks& picks, const std::string& name, const cv::Size& size) {
+  const auto found = picks.regions.find(name);
+  if (found == picks.regions.end()) return {};
+  const cv::Mat& region = found->second;
+  if (region.size() != size)
+    throw InputError("picks: " + name, fmt::format("is {} x {}; expected the colour image's size, {} x {}", region.cols,
+                                                   region.rows, size.width, size.height));
+  return region;
+}
+
 std::optional<Picks> read_picks(const fs::path& session) {
   if (!fs::exists(session / kPicksFolder)) return {};
   if (!fs::is_directory(session / kPicksFolder))

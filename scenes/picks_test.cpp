@@ -163,6 +163,20 @@ TEST_F(PicksOfSession, NothingIsHalfWritten) {
   EXPECT_EQ(std::distance(fs::directory_iterator(session_), {}), before);
 }
 
+TEST(PickedRegion, IsAsLargeAsItsImageOrNone) {
+  Picks picks;
+  picks.regions["region_top_k1"] = cv::Mat(6, 8, CV_8UC1, cv::Scalar(255));
+  EXPECT_EQ(cv::countNonZero(picked_region(picks, "region_top_k1", {8, 6})), 48);
+  EXPECT_TRUE(picked_region(picks, "region_bottom_k1", {8, 6}).empty());
+  try {
+    picked_region(picks, "region_top_k1", {6, 8});
+    ADD_FAILURE() << "a region of another size was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("picks: region_top_k1"));
+    EXPECT_THAT(error.what(), HasSubstr("is 8 x 6; expected the colour image's size, 6 x 8"));
+  }
+}
+
 TEST_F(PicksOfSession, PicksChangeNothingElse) {
   const std::string without = session_content_hash(session_);
   put("model/rim_top_neck.txt", kTriangle);

@@ -116,6 +116,21 @@ Isometry3d exponential(const Vector6d& twist) {
   return result;
 }
 
+Vector6d motion_at(const Isometry3d& motion, const Vector3d& centre) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  Vector6d step;
+  step << turn.angle() * turn.axis(), motion * centre - centre;
+  return step;
+}
+
+Isometry3d motion_about(const Vector6d& step, const Vector3d& centre) {
+  Isometry3d motion = Isometry3d::Identity();
+  if (const double angle = step.head<3>().norm(); angle > 0)
+    motion.linear() = Eigen::AngleAxisd(angle, step.head<3>() / angle).toRotationMatrix();
+  motion.translation() = centre + step.tail<3>() - motion.linear() * centre;
+  return motion;
+}
+
 PairEquations pair_equations(const DepthMap& from, const std::vector<int>& samples, const DepthMap& to,
                              const Projector& projector, const Isometry3d& world_from_source,
                              const Isometry3d& world_from_target, const CorrespondenceRejector& gate) {

@@ -119,11 +119,13 @@ std::vector<Vector3d> picked_loop(const std::vector<PickedPoints>& parts) {
   return with_gaps_bridged(without_repeats(thinned(all, kMerge * spacing_m)), frame, spacing_m);
 }
 
-double enclosed_area_m2(const std::vector<Vector3d>& loop) {
-  Vector3d doubled = Vector3d::Zero();
+Vector3d doubled_area(const std::vector<Vector3d>& loop) {
+  Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < loop.size(); ++i)
-    doubled += (loop[i] - loop.front()).cross(loop[(i + 1) % loop.size()] - loop.front());
-  return doubled.norm() / 2;
+    sum += (loop[i] - loop.front()).cross(loop[(i + 1) % loop.size()] - loop.front());
+  return sum;
 }
+
+double enclosed_area_m2(const std::vector<Vector3d>& loop) { return doubled_area(loop).norm() / 2; }
 
 }  // namespace dressform

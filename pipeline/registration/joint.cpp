@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/registration/acceptance.h"
@@ -77,10 +78,11 @@ double joint_step(const std::vector<ViewPoints>& views, const std::vector<std::v
     measure(model, alignments[v]);
     for (std::size_t w = 0; w < count; ++w) {
       if (w == v || !accepted[w] || overlap_weight == 0) continue;
+      const double width_m = std::max(loss_width_m(views[v], gate.distance_m), loss_width_m(views[w], gate.distance_m));
       system.add_overlap(
           v, w,
           pair_equations(views[v].map, samples[v], views[w].map, projectors[w], alignments[v].model_from_sensor,
-                         alignments[w].model_from_sensor, {kOverlapWidth * gate.distance_m, kOverlapCosine, 1}),
+                         alignments[w].model_from_sensor, {kOverlapWidth * width_m, kOverlapCosine, 1}),
           overlap_weight);
     }
   }
