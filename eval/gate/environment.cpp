@@ -1,5 +1,6 @@
 #include "eval/gate/environment.h"
 
+#include <CGAL/version.h>
 #include <embree3/rtcore_config.h>
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
@@ -53,6 +54,7 @@ Environment this_environment() {
       {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"embree", RTC_VERSION_STRING},
       {"tbb", fmt::format("{}.{}", TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
+      {"cgal", CGAL_VERSION_STR},
       {"renderer", renderer},
       {"instructions", instruction_sets(processor_flags())},
   };
