@@ -25,6 +25,25 @@ cv::Mat small_image(const fs::path& file) {
   return result;
 }
 
+// Names what this environment makes: a store's keys know the code, but not what compiled it.
+std::string environment_hash() {
+  constexpr std::size_t kDigits = 8;
+  std::string text;
+  for (const auto& [name, value] : this_environment()) text += name + "=" + value + "\n";
+  return hash_hex(text).substr(0, kDigits);
+}
+
+// Takes away what another environment made in a case's folder, or a run that showed nothing: its scores and images must
+// not pass for this one's.
+void remove_foreign_run(const fs::path& run, const fs::path& observed) {
+  std::error_code ignored;
+  try {
+    if (fs::exists(run / "run.json") && read_golden_run(observed).environment == this_environment()) return;
+  } catch (const InputError&) {  // no or a damaged observation
+  }
+  if (fs::exists(run / "run.json")) fs::remove_all(run, ignored);
+}
+
 // What a stage was asked and given: the recipe without its code's version.
 std::string inputs_of(const Recipe& recipe) {
   Recipe without_code = recipe;
@@ -67,7 +86,7 @@ SceneRunRequest scene_request(const GoldenCase& golden_case, const GoldenRunRequ
   SceneRunRequest request{scaled(read_scene(root / golden_case.scene), golden_case.scale),
                           golden_case.scale,
                           asked.work / golden_case.name,
-                          asked.work / ".dressform-store",
+                          asked.work / (".dressform-store-" + environment_hash()),
                           "default",
                           {},
                           asked.threads};
@@ -88,6 +107,7 @@ GoldenRun golden_run_of(const EndToEndResult& result, const SceneRunRequest& req
 GoldenRun run_golden_case(const GoldenCase& golden_case, const GoldenRunRequest& asked,
                           const SceneRunProgress& progress) {
   const SceneRunRequest request = scene_request(golden_case, asked);
+  remove_foreign_run(request.output, observed_folder(asked.work, golden_case.name));
   const GoldenRun run = golden_run_of(run_scene(request, progress), request);
   write_golden_run(observed_folder(asked.work, golden_case.name), run);
   return run;
