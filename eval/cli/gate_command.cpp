@@ -42,6 +42,14 @@ void add_nuisance_options(CLI::App& command, GateOptions& options) {
   command.add_flag("--dry", options.dry, "only say what was seen; write no nuisance.json");
 }
 
+void add_power_options(CLI::App& command, GateOptions& options) {
+  command.add_option("--faults", options.faults, "steps (\"segment\") or faults (\"segment.shifted\"); default all");
+  command.add_option("--sizes", options.sizes, "small, medium, large; default all");
+  command.add_option("--placements", options.placements, "how many places of each fault and size (default 1)")
+      ->check(CLI::Range(1, 1000));
+  command.add_flag("--list", options.dry, "only list the faults with their sizes");
+}
+
 Command add_gate_command(CLI::App& app) {
   auto options = std::make_shared<GateOptions>();
   auto* command = app.add_subcommand("gate", "Compare runs with the accepted references in golden/");
@@ -69,8 +77,12 @@ Command add_gate_command(CLI::App& app) {
   auto* nuisance = add_runner("nuisance", "Measure how far other environments move the numbers; golden/nuisance.json",
                               gate_nuisance);
   add_nuisance_options(*nuisance, *options);
+  auto* power = add_runner(
+      "power", "Put faults of known sizes into the cases: which does the gate find, whom does it blame", gate_power);
+  add_power_options(*power, *options);
   auto* list = add("list", "The references: what is kept, since when, and why", gate_list);
   for (auto* each : {check, run, nuisance, list}) each->add_option("cases", options->cases, "cases; default all");
+  power->add_option("--cases", options->cases, "cases; default all");
   add("doctor", "What is wrong with the references themselves, without running anything", gate_doctor);
   command->footer(
       "Examples:\n  dressform gate check group1 --junit gate.xml\n"
@@ -79,6 +91,7 @@ Command add_gate_command(CLI::App& app) {
       "  dressform gate accept group1 --reason \"new scene\" --miss \"open bottom/rims_hd95_mm@1=no view sees the "
       "waist\"\n"
       "  dressform gate nuisance --run-with \"LP_NATIVE_VECTOR_WIDTH=128 dressform\" --run-with build-clang/dressform\n"
+      "  dressform gate power --cases group4 --faults segment registration.view_moved --sizes medium large\n"
       "Exit codes: 0 pass (identical, within nuisance, better), 1 regression, 2 usage or bad input, 3 missing, "
       "corrupt\n"
       "or obsolete reference, 4 a run crashed.");

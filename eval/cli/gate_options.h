@@ -17,7 +17,7 @@ struct GateOptions : CommonOptions {
   std::vector<std::string> items, misses;  // accept: "stage metric" or "image name"; "stage metric=why"
   std::vector<std::string> run_with;       // nuisance: commands that start a program
   double limit_minutes = 60;               // nuisance: of one program
-  bool dry = false;                        // nuisance: nothing is written
+  bool dry = false;                        // nuisance: nothing is written; power: the faults are only listed
   std::vector<std::string> faults, sizes;  // power
   int placements = 1;                      // power
 };
@@ -29,6 +29,7 @@ int gate_accept(const GateOptions& options);
 int gate_list(const GateOptions& options);
 int gate_doctor(const GateOptions& options);
 int gate_nuisance(const GateOptions& options);
+int gate_power(const GateOptions& options);
 
 // The named cases, or all of golden/.
 std::vector<std::string> chosen_cases(const GateOptions& options);
