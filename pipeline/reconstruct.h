@@ -36,6 +36,7 @@ struct StageRecord {
   double seconds = 0;  // of the run that made the artifact
   double peak_memory_mb = 0;
   bool reused = false;
+  std::string content_hash;  // of the result; empty while it is being made
 };
 using StageProgress = std::function<void(const StageRecord&, bool finished)>;
 

@@ -25,10 +25,15 @@ json to_json(const StageRecord& record) {
   json values = json::object();
   for (const auto& [name, value] : record.recipe.values)
     std::visit([&, &name = name](const auto& held) { values[name] = held; }, value);
-  return {{"stage", record.label},     {"variant", record.recipe.variant},
-          {"parameters", values},      {"key", record.key},
-          {"seconds", record.seconds}, {"peak_memory_mb", record.peak_memory_mb},
-          {"reused", record.reused},   {"code_version", record.recipe.code_version}};
+  return {{"stage", record.label},
+          {"variant", record.recipe.variant},
+          {"parameters", values},
+          {"key", record.key},
+          {"seconds", record.seconds},
+          {"peak_memory_mb", record.peak_memory_mb},
+          {"reused", record.reused},
+          {"code_version", record.recipe.code_version},
+          {"content_hash", record.content_hash}};
 }
 
 json to_json(const ReconstructionOptions& options) {
@@ -176,6 +181,9 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
       return write_report(input, request.output);
     });
     result.report = request.output / "report.html";
+  } else if (request.result_images) {
+    steps.run("result_images", hash_hex(identity + code_version("render")),
+              [&] { return write_result_images(made, request.output); });
   }
   folder.save();
   if (request.facts.contains("scale")) result.scale = request.facts["scale"].get<double>();

@@ -21,7 +21,8 @@ struct SceneRunRequest {
   std::string variant = "default";
   ReconstructionOptions options;
   int threads = 1;
-  bool report = true;  // see EndToEndRequest
+  bool report = true;  // these two: see EndToEndRequest
+  bool result_images = false;
 };
 struct SceneRunProgress {
   SynthesisProgress capture;

@@ -50,8 +50,8 @@ EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, co
   return run_scene(request, progress);
 }
 
-EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work,
-                                  const Machine& machine) {
+// The recording that a cell is made of, as it was when the study was planned.
+fs::path recording_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& machine) {
   const PlannedScene& planned = plan.scenes[cell.scene];
   const StudyVariant& variant = plan.study.variants[cell.variant];
   if (!variant.sensor.variant.empty() || !variant.rig.empty() || !variant.scan.empty() || variant.scale > 0)
@@ -59,8 +59,15 @@ EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell
                      "asks for another capture, which a recording cannot give; expected "
                      "scenes for it");
   check_unchanged(planned, session_content_hash(machine.study / planned.path));
+  return machine.study / planned.path;
+}
+
+EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work,
+                                  const Machine& machine) {
+  const PlannedScene& planned = plan.scenes[cell.scene];
+  const StudyVariant& variant = plan.study.variants[cell.variant];
   EndToEndRequest request;
-  request.session = machine.study / planned.path;
+  request.session = recording_of(plan, cell, machine);
   request.output = work;
   request.store = machine.store;
   request.scene = planned.name;
@@ -72,7 +79,27 @@ EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell
   return run_end_to_end(request, {});
 }
 
-MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+// A variant that is someone else's program: the same captures, its command instead of the pipeline.
+MadeCell foreign_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+  MadeCell made;
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  ForeignRequest request{{}, work, cell.seed, machine.threads};
+  if (plan.scenes[cell.scene].recording) {
+    request.session = recording_of(plan, cell, machine);
+  } else {
+    ArtifactStore store(machine.store);
+    const auto capture = stored_capture(scene_of(plan, cell, machine), scale_of(plan, variant), cell.seed, store, {});
+    made.cost.capture_seconds = capture.seconds;
+    request.session = capture.session;
+  }
+  const ForeignResult result = run_foreign_pipeline(*variant.foreign, request);
+  made.result.scores = result.scores.rows;
+  made.cost.stage_seconds = {{"command", result.seconds}};
+  made.cost.peak_memory_mb = result.peak_memory_mb;
+  return made;
+}
+
+MadeCell pipeline_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
   MadeCell made;
   const bool recording = plan.scenes[cell.scene].recording;
   const EndToEndResult result =
@@ -83,6 +110,17 @@ MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::pat
     made.cost.stage_seconds.push_back({record.label, record.seconds});
     made.cost.peak_memory_mb = std::max(made.cost.peak_memory_mb, record.peak_memory_mb);
   }
+  return made;
+}
+
+MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  MadeCell made = variant.foreign ? foreign_cell(plan, cell, work, machine) : pipeline_cell(plan, cell, work, machine);
+  made.result.id = cell.id;
+  made.result.signature = program_signature();
+  made.result.scene = plan.scenes[cell.scene].name;
+  made.result.seed = cell.seed;
+  made.result.scale = scale_of(plan, variant);
   return made;
 }
 

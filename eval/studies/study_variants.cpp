@@ -216,10 +216,23 @@ std::vector<StudyVariant> all_presets() {
   return variants;
 }
 
+// A command runs instead of the pipeline, which then has nothing to be told.
+void take_foreign(TomlSection& section, const std::optional<ForeignPipeline>& foreign,
+                  std::vector<StudyVariant>& variants) {
+  if (!foreign) return;
+  for (auto& variant : variants) {
+    if (variant.name == "default") section.fail("name", "is missing; expected a name for what the command runs");
+    if (!variant.options.variants.empty() || !variant.options.values.empty())
+      section.fail("command",
+                   "found it beside a preset, stages or set; expected it without them (sensor, rig, scan, "
+                   "scale and set.sensor are the capture's)");
+    variant.foreign = foreign;
+  }
+}
+
 }  // namespace
 
-std::vector<StudyVariant> read_study_variants(TomlSection& section) {
-  std::string name;
+std::vector<StudyVariant> read_study_variants(TomlSection& section, std::string name) {
   bool each_alone = false;
   section("name", name, {}, "");
   section("one_at_a_time", each_alone, "");
@@ -227,6 +240,7 @@ std::vector<StudyVariant> read_study_variants(TomlSection& section) {
   bool every_preset = false;
   section("every_preset", every_preset, "");
   if (every_preset) return all_presets();
+  const std::optional<ForeignPipeline> foreign = read_foreign_pipeline(section);
   std::vector<Axis> axes;
   add_preset_axis(section, axes);
   add_stage_axes(section, axes);
@@ -241,6 +255,7 @@ std::vector<StudyVariant> read_study_variants(TomlSection& section) {
       section.fail("", fmt::format("found more than {} combinations; expected a smaller grid", kMostVariants));
   std::vector<StudyVariant> variants;
   for (std::size_t place = 0; place < count; ++place) variants.push_back(combination(axes, name, place));
+  take_foreign(section, foreign, variants);
   return variants;
 }
 

@@ -63,12 +63,13 @@ class StageRunner {
   }
 
   void begin(const std::string& label, const Recipe& recipe, bool reused) {
-    records_.push_back({static_cast<int>(records_.size()) + 1, label, recipe, recipe.key(), 0, 0, reused});
+    records_.push_back({static_cast<int>(records_.size()) + 1, label, recipe, recipe.key(), 0, 0, reused, {}});
     if (progress_) progress_(records_.back(), false);
   }
   void end(const ArtifactRecord& artifact) {
     records_.back().seconds = artifact.seconds;
     records_.back().peak_memory_mb = artifact.peak_memory_mb;
+    records_.back().content_hash = artifact.content_hash;
     if (progress_) progress_(records_.back(), true);
   }
 
