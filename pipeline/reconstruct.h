@@ -23,6 +23,10 @@ struct ReconstructionOptions {
   Seed seed = 1;
 };
 
+// Another variant of a stage takes nothing of what was set for the one before; the same variant again changes nothing.
+// Whether there are such a stage and variant is check_options' to say.
+void choose_variant(ReconstructionOptions& options, const std::string& stage, const std::string& variant);
+
 // What one stage did in this run.
 struct StageRecord {
   int number = 0;

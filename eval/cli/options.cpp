@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "eval/run/scene_run.h"
 #include "pipeline/run/preset.h"
-#include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
 namespace {
@@ -91,13 +91,10 @@ Choices parse_choices(const CommonOptions& options) {
   }
   for (const auto& text : options.variants) {
     const auto [stage, name] = split("--variant", text, '=', "stage=name, e.g. registration=point_to_plane");
-    if (stage == "sensor") {
+    if (stage == "sensor")
       choices.sensor.variant = name;
-      continue;
-    }
-    std::string& chosen = choices.reconstruction.variants[stage];
-    if (chosen != name) choices.reconstruction.values.erase(stage);
-    chosen = name;
+    else
+      choose_variant(choices.reconstruction, stage, name);
   }
   for (const auto& text : options.values) {
     const std::string form = "stage.parameter=value, e.g. fuse.voxel_m=0.005";
@@ -110,12 +107,7 @@ Choices parse_choices(const CommonOptions& options) {
 
 Scene chosen_scene(const std::filesystem::path& file, const CommonOptions& options) {
   Scene scene = scaled(read_scene(file), options.scale);
-  const VariantChoice choice = parse_choices(options).sensor;
-  if (!choice.variant.empty() && choice.variant != scene.sensor_model.variant)
-    scene.sensor_model = {choice.variant, {}};
-  for (const auto& [name, value] : choice.values) scene.sensor_model.values[name] = value;
-  auto& model = scene.sensor_model;
-  model.values = SensorModel::at(model.variant).complete(model.values);
+  choose_sensor(scene, parse_choices(options).sensor);
   return scene;
 }
 

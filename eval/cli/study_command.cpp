@@ -167,7 +167,7 @@ void add_run_options(CLI::App& run, StudyOptions& options) {
   run.add_option("--part", options.part, "K/N: only the K-th of N shares of the scenes");
   run.add_flag("--retry-failed", options.retry_failed, "make failed cells once more");
   run.add_flag("--renew", options.renew, "make cells of other programs anew; otherwise they are an error");
-  run.add_flag("--keep", options.keep, "keep each run's folder (out/, scores) below work/");
+  run.add_flag("--keep", options.keep, "keep each cell's run (out/, scores) in work/<cell id>");
   add_threads(run, options);
 }
 

@@ -1,8 +1,16 @@
 #include "eval/run/scene_run.h"
 
 #include "eval/run/run_folder.h"
+#include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
+
+void choose_sensor(Scene& scene, const VariantChoice& choice) {
+  auto& model = scene.sensor_model;
+  if (!choice.variant.empty() && choice.variant != model.variant) model = {choice.variant, {}};
+  for (const auto& [name, value] : choice.values) model.values[name] = value;
+  model.values = SensorModel::at(model.variant).complete(model.values);
+}
 
 EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress& progress) {
   check_options(request.options);

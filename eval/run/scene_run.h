@@ -8,6 +8,11 @@
 
 namespace dressform {
 
+// Gives the scene another sensor model, or other parameters of its own one; an empty choice leaves it as it is. Another
+// model takes none of the scene's parameters. Throws InputError for a model or parameter that is not known, and for
+// values out of range.
+void choose_sensor(Scene& scene, const VariantChoice& choice);
+
 // The whole pipeline from a scene: capture (or the stored one), then run_end_to_end.
 struct SceneRunRequest {
   Scene scene;       // scaled, with its sensor model chosen

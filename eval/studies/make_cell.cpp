@@ -4,7 +4,6 @@
 #include "eval/run/scene_run.h"
 #include "scenes/capture_session.h"
 #include "scenes/scene_parts.h"
-#include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
 namespace {
@@ -24,14 +23,6 @@ double scale_of(const StudyPlan& plan, const StudyVariant& variant) {
 void check_unchanged(const PlannedScene& scene, const std::string& hash_now) {
   if (hash_now != scene.content_hash)
     throw InputError(scene.path.string(), "changed since the study was planned; expected the same, or a new study");
-}
-
-void choose_sensor(Scene& scene, const VariantChoice& choice) {
-  if (!choice.variant.empty() && choice.variant != scene.sensor_model.variant)
-    scene.sensor_model = {choice.variant, {}};
-  for (const auto& [name, value] : choice.values) scene.sensor_model.values[name] = value;
-  auto& model = scene.sensor_model;
-  model.values = SensorModel::at(model.variant).complete(model.values);
 }
 
 Scene scene_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& machine) {

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "eval/studies/masked_paths.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/temporary_files.h"
@@ -158,16 +159,21 @@ class CellRunner {
     } catch (const std::exception& error) {
       failed.reason = std::string("crash: ") + error.what();
     }
-    failed.reason = without_paths(failed.reason.substr(0, failed.reason.find('\n')), work);
+    failed.reason = without_paths(failed.reason.substr(0, failed.reason.find('\n')), cell, work);
     return {failed, {}};
   }
 
-  // A reason names no folder of this machine or process: the same failure gives the same bytes.
-  std::string without_paths(std::string reason, const fs::path& work) const {
-    for (const auto& [path, word] : {std::pair{work.string(), "<run>"}, {request_.folder.string(), "<study>"}})
-      for (auto at = reason.find(path); at != reason.npos; at = reason.find(path))
-        reason.replace(at, path.size(), word);
-    return reason;
+  // A reason names no folder of this machine or process: the same failure gives the same bytes. Files that a scene
+  // refers to lie beside it.
+  std::string without_paths(const std::string& reason, const PlannedCell& cell, const fs::path& work) const {
+    std::vector<std::pair<std::string, std::string>> words{{work.string(), "<run>"},
+                                                           {request_.folder.string(), "<study>"}};
+    const fs::path& scene = plan_.scenes[cell.scene].path;
+    if (scene.is_absolute()) {
+      words.push_back({scene.string(), "<scene>"});
+      words.push_back({scene.parent_path().string(), "<scenes>"});
+    }
+    return with_masked_paths(reason, words);
   }
 
   void make_one(const PlannedCell& cell) {
@@ -178,12 +184,23 @@ class CellRunner {
     const MadeCell made = attempt(cell, work);
     write_file_atomically(cost_file(request_.folder, cell.id), cost_json(made.cost));
     write_file_atomically(cell_file(request_.folder, cell.id), cell_json(made.result));
-    if (!request_.keep_work) fs::remove_all(work);
+    put_away(work, cell.id);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     spent_ += seconds;
     ++summary_.made, ++done_;
     summary_.failed += made.result.failed;
     if (progress_.end) progress_.end(cell, made, seconds);
+  }
+
+  // Kept folders have the cell's name alone: no process is looked for in it, so nobody takes them for a dead one's.
+  void put_away(const fs::path& work, const std::string& id) const {
+    const fs::path kept = request_.folder / "work" / id;
+    if (!request_.keep_work) {
+      fs::remove_all(work);
+      return;
+    }
+    fs::remove_all(kept);
+    fs::rename(work, kept);
   }
 
   double seconds_left() const { return summary_.made == 0 ? -1 : (total_ - done_) * spent_ / summary_.made; }

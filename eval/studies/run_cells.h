@@ -17,7 +17,7 @@ struct RunCellsRequest {
   Signature signature;            // of this program
   bool retry_failed = false;      // failed cells once more
   bool renew = false;             // cells of other programs anew; false: they are an error
-  bool keep_work = false;         // the runs' folders stay in work/
+  bool keep_work = false;         // each cell's run stays in work/<cell id>
 };
 
 struct RunCellsProgress {

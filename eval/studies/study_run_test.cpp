@@ -114,6 +114,23 @@ TEST(StudyRun, AFailedCellIsARowWithItsReason) {
   EXPECT_EQ(run_cells(read_plan(folder), request, mock_cell).made, 1);
 }
 
+TEST(StudyRun, KeptRunsLieUnderTheirCellsNames) {
+  const fs::path folder = planned("kept", 2);
+  RunCellsRequest request{folder, {}, kSignature};
+  request.keep_work = true;
+  run_cells(read_plan(folder), request, mock_cell);
+  for (int again = 0; again < 2; ++again) {  // the next run leaves them there
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "work")) {
+      EXPECT_TRUE(fs::exists(cell_file(folder, entry.path().filename().string()))) << entry.path();
+      EXPECT_TRUE(fs::exists(entry.path() / "left behind"));
+      ++count;
+    }
+    EXPECT_EQ(count, cell_count(folder));
+    run_mock(folder);
+  }
+}
+
 TEST(StudyRun, OrderAndSharesChangeNothing) {
   const fs::path one = planned("order_one", 6, 2), other = planned("order_other", 6, 2);
   run_mock(one);

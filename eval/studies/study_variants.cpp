@@ -42,7 +42,7 @@ const toml::table& table_of(const toml::node& node, const std::string& name) {
 }
 
 void take_preset(StudyVariant& variant, const Preset& preset) {
-  for (const auto& [stage, name] : preset.variants) variant.options.variants[stage] = name;
+  for (const auto& [stage, name] : preset.variants) choose_variant(variant.options, stage, name);
   for (const auto& [stage, values] : preset.values)
     for (const auto& [name, value] : values) variant.options.values[stage][name] = value;
 }
@@ -54,8 +54,7 @@ void add_preset_axis(TomlSection& section, std::vector<Axis>& axes) {
   Axis axis;
   for (const auto* each : values_of(*node)) {
     const std::string text = text_of(*each, "preset");
-    const bool is_file = text.find('/') != text.npos || std::filesystem::path(text).extension() == ".toml";
-    const Preset preset = read_preset(is_file ? resolved_path(*each, text).string() : text);
+    const Preset preset = read_preset(is_preset_file(text) ? resolved_path(*each, text).string() : text);
     axis.push_back({preset.name, [preset](StudyVariant& variant) { take_preset(variant, preset); }});
   }
   axes.push_back(axis);
@@ -70,8 +69,9 @@ void add_stage_axes(TomlSection& section, std::vector<Axis>& axes) {
     Axis axis;
     for (const auto* each : values_of(value)) {
       const std::string name = variant_at(*each, stage, text_of(*each, stage.name)).name;
-      axis.push_back({stage.name + "=" + name,
-                      [stage = stage.name, name](StudyVariant& variant) { variant.options.variants[stage] = name; }});
+      axis.push_back({stage.name + "=" + name, [stage = stage.name, name](StudyVariant& variant) {
+                        choose_variant(variant.options, stage, name);
+                      }});
     }
     axes.push_back(axis);
   }
@@ -81,8 +81,10 @@ void add_stage_axes(TomlSection& section, std::vector<Axis>& axes) {
 void set_parameter(StudyVariant& variant, const toml::node& node, const std::string& stage, const std::string& name) {
   const std::string full = "set." + stage + "." + name;
   if (stage == "sensor") {
-    const std::string model = variant.sensor.variant.empty() ? SensorModel::default_variant() : variant.sensor.variant;
-    variant.sensor.variant = model;
+    const std::string& model = variant.sensor.variant;
+    if (model.empty())  // scenes have models of their own, and each model its own parameters
+      throw InputError(where_of(node),
+                       full + ": found no sensor model beside it; expected sensor = \"...\" of the variant");
     variant.sensor.values[name] =
         checked_value(node, full, field_at(node, "sensor " + model, SensorModel::at(model).fields, name));
     return;
@@ -103,7 +105,7 @@ std::string value_word(const toml::node& node) {
   throw InputError(where_of(node), "found a table; expected a number, text, true or false");
 }
 
-// [variant.set.fuse] voxel_m = 0.004 or [0.003, 0.005]; set.sensor are the sensor model's.
+// [variant.set.fuse] voxel_m = 0.004 or [0.003, 0.005]; set.sensor are those of the model that `sensor` names.
 void add_parameter_axes(TomlSection& section, std::vector<Axis>& axes) {
   const toml::node* node = section.find("set");
   if (!node) return;
@@ -195,7 +197,7 @@ std::vector<StudyVariant> one_at_a_time(TomlSection& section) {
       if (entry.name == stage.default_variant || (!picked && !entry.picks.empty())) continue;
       StudyVariant variant;
       variant.name = stage.name + "=" + entry.name;
-      variant.options.variants[stage.name] = entry.name;
+      choose_variant(variant.options, stage.name, entry.name);
       variants.push_back(variant);
     }
   }
