@@ -206,9 +206,16 @@ Command add_study_command(CLI::App& app) {
       "  dressform study run studies/variants\n  dressform study report studies/variants\n"
       "  dressform study cells studies/variants --by-scene | parallel -j 4\n"
       "A study file is described in eval/studies/README.md.");
-  return [options, actions] {
+  auto others = std::make_shared<std::vector<std::pair<CLI::App*, Command>>>();  // of files of their own
+  for (const AddCommand add_other : registered_study_commands()) {
+    Command other = add_other(*command);
+    others->push_back({command->get_subcommands({}).back(), std::move(other)});
+  }
+  return [options, actions, others] {
     for (const auto& [sub, action] : *actions)
       if (sub->parsed()) return action(*options);
+    for (const auto& [sub, other] : *others)
+      if (sub->parsed()) return other();
     return static_cast<int>(kBadInput);
   };
 }
