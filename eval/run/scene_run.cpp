@@ -21,6 +21,7 @@ EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress&
   EndToEndRequest pipeline{capture.session, request.output,  store.root(), request.scene.name,
                            request.variant, request.options, false,        request.threads};
   pipeline.report = request.report;
+  pipeline.oracles = request.oracles;
   pipeline.facts = {{"scene_file", request.scene.file.string()},
                     {"scene_toml", request.scene.toml},
                     {"scale", request.scale},

@@ -21,7 +21,8 @@ struct SceneRunRequest {
   std::string variant = "default";
   ReconstructionOptions options;
   int threads = 1;
-  bool report = true;  // see EndToEndRequest
+  bool report = true;                     // see EndToEndRequest
+  std::vector<std::string> oracles = {};  // likewise
 };
 struct SceneRunProgress {
   SynthesisProgress capture;

@@ -49,6 +49,7 @@ EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, co
                           machine.threads};
   request.options.seed = cell.seed;
   request.report = false;
+  request.oracles = variant.oracles;
   SceneRunProgress progress;
   progress.captured = [&cost](const StoredCapture& capture) { cost.capture_seconds = capture.seconds; };
   return run_scene(request, progress);
@@ -80,6 +81,7 @@ EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell
   request.options.seed = cell.seed;
   request.threads = machine.threads;
   request.report = false;
+  request.oracles = variant.oracles;
   return run_end_to_end(request, {});
 }
 

@@ -196,6 +196,17 @@ TEST(StudyRun, NumbersOfDifferentProgramsAreNotCompared) {
   EXPECT_NO_THROW(read_results(folder));
 }
 
+TEST(StudyRun, SignatureNamesAllThatNumbersDependOn) {
+  Signature own = program_signature();
+  for (const char* name : {"dressform", "commit", "code", "metrics", "compiler", "opencv", "open3d", "embree"})
+    EXPECT_FALSE(own[name].empty()) << name;
+  Signature other = own;
+  other["commit"] = "another";
+  EXPECT_EQ(difference_of(own, other), "");  // of the same code
+  other["open3d"] = "0.0.0";
+  EXPECT_EQ(difference_of(own, other), "open3d " + own["open3d"] + " and 0.0.0");
+}
+
 TEST(StudyRun, DamagedCellsAreNamed) {
   const fs::path folder = planned("damaged", 2);
   EXPECT_THROW(read_results(folder), InputError);  // nothing there yet
