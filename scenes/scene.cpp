@@ -1,9 +1,11 @@
 #include "scenes/scene.h"
 
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "scenes/calibration_toml.h"
+#include "scenes/pick_names.h"
 #include "scenes/scene_fields.h"
 #include "scenes/scene_parts.h"
 #include "scenes/toml_section.h"
@@ -34,6 +36,8 @@ SensorSpec read_sensor(TomlSection& section) {
   section("name", sensor.name, {}, "");
   if (sensor.name.empty() || sensor.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != sensor.name.npos)
     section.fail("name", "found \"" + sensor.name + "\"; expected letters a-z, digits and _");
+  if (!is_sensor_frame(sensor.name))  // points picked in its frame would be taken for another's
+    section.fail("name", "found \"" + sensor.name + "\", which names a frame of picks; expected another name");
   sensor.calibration = read_calibration(section);
   section("body_tracking", sensor.body_tracking, "");
   section("exposure", sensor.exposure, 0.05, 20.0, "", "");
@@ -183,6 +187,20 @@ Scene read(TomlFiles& files, const std::filesystem::path& file) {
   return scene;
 }
 
+// The scene with one part read from a file. All files that the part is made of stand in the text: a stored capture is
+// known by it.
+Scene with_part(const Scene& scene, const char* part, const std::filesystem::path& file,
+                const std::function<void(TomlSection&, Scene&)>& read_part) {
+  TomlFiles files;
+  TomlSection section(files, files.open(file, file.filename().string(), ""), part);
+  Scene result = scene;
+  read_part(section, result);
+  section.finish();
+  result.toml += std::string("\n# --- instead of its ") + part + "\n";
+  for (const auto& each : files.files()) result.toml += as_comment(each);
+  return result;
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file) {
@@ -191,25 +209,17 @@ Scene read_scene(const std::filesystem::path& file) {
 }
 
 Scene with_rig(const Scene& scene, const std::filesystem::path& file) {
-  TomlFiles files;
-  TomlSection section(files, files.open(file, file.filename().string(), ""), "rig");
-  Scene result = scene;
-  result.rig.clear();
-  read_rig(section, result);
-  section.finish();
-  result.toml += "\n# --- instead of its rig\n" + as_comment(files.files().front());
-  return result;
+  return with_part(scene, "rig", file, [](TomlSection& section, Scene& result) {
+    result.rig.clear();
+    read_rig(section, result);
+  });
 }
 
 Scene with_scan(const Scene& scene, const std::filesystem::path& file) {
-  TomlFiles files;
-  TomlSection section(files, files.open(file, file.filename().string(), ""), "scan");
-  Scene result = scene;
-  result.scan = {};
-  read_scan(section, result.scan);
-  section.finish();
-  result.toml += "\n# --- instead of its scan\n" + as_comment(files.files().front());
-  return result;
+  return with_part(scene, "scan", file, [](TomlSection& section, Scene& result) {
+    result.scan = {};
+    read_scan(section, result.scan);
+  });
 }
 
 Scene scaled(const Scene& scene, double scale) {

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "eval/cli/option_fields.h"
 #include "eval/run/scene_run.h"
 #include "pipeline/run/preset.h"
 
@@ -51,27 +52,8 @@ void add_preset(CLI::App& command, CommonOptions& options) {
                      "see dressform variants --presets");
 }
 
-namespace {
-
-// Fields as options: --name, with dashes.
-struct OptionFields {
-  CLI::App& command;
-  void operator()(const char* name, std::string& value, const std::vector<std::string>& choices, const char* doc) {
-    command.add_option(option(name), value, doc)->check(CLI::IsMember(choices));
-  }
-  void operator()(const char* name, double& value, double minimum, double maximum, const char*, const char* doc) {
-    command.add_option(option(name), value, doc)->check(CLI::Range(minimum, maximum));
-  }
-  static std::string option(std::string name) {
-    std::replace(name.begin(), name.end(), '_', '-');
-    return "--" + name;
-  }
-};
-
-}  // namespace
-
 void add_mesh_frame(CLI::App& command, MeshFrame& frame) {
-  OptionFields options{command};
+  OptionFields options(command);
   fields(options, frame);
 }
 

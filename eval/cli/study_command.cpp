@@ -145,10 +145,9 @@ int show_status(const StudyOptions& options) {
 }
 
 int report_study(const StudyOptions& options) {
-  const auto files = write_study_report(options.study, !options.without_seconds);
-  const StudyReport report = study_report(read_results(options.study), !options.without_seconds);
+  const WrittenReport report = write_study_report(options.study, !options.without_seconds);
   fmt::print("{}\n", report.headline);
-  for (const auto& file : files) fmt::print("{}\n", file.string());
+  for (const auto& file : report.files) fmt::print("{}\n", file.string());
   return kSuccess;
 }
 

@@ -4,17 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "eval/report/csv.h"
 #include "eval/report/thesis_tables.h"
 
 namespace dressform {
 namespace {
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string latex(const std::string& text) {
   std::string result;

@@ -107,7 +107,7 @@ std::vector<std::string> write_scores(const EndToEndRequest& request, const Grou
 std::vector<StageProblem> known_problems(const Reconstruction& made, const std::string& identity,
                                          const EndToEndRequest& request, Steps& steps) {
   const fs::path file = request.output / "problems.json";
-  steps.run("problems", hash_hex(identity + truth_hash(request.session)), [&] {
+  steps.run("problems", identity, [&] {
     const auto found = with_unfound_garments(stage_problems(made), made, truth_garment_names(request.session));
     write_file_atomically(file, to_json(found).dump(1) + "\n");
     return std::vector<std::string>{"problems.json"};
@@ -116,7 +116,7 @@ std::vector<StageProblem> known_problems(const Reconstruction& made, const std::
 }
 
 // What was asked, for run.json.
-json facts_of(const EndToEndRequest& request, const SessionSource& source) {
+json facts_of(const EndToEndRequest& request, const SessionSource& source, const std::string& truth) {
   json facts = request.facts;
   facts["provenance"] = provenance(request.threads);
   facts["scene"] = request.scene;
@@ -127,7 +127,7 @@ json facts_of(const EndToEndRequest& request, const SessionSource& source) {
   if (!request.oracles.empty()) facts["oracles"] = request.oracles;
   facts["session"] = {{"path", fs::absolute(request.session).string()},
                       {"content_hash", source.session.content_hash()},
-                      {"truth_hash", truth_hash(request.session)}};
+                      {"truth_hash", truth}};
   return facts;
 }
 
@@ -137,7 +137,8 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   check_options(request.options);
   const SessionSource source = open_session(request.session, request.check_session);
   RunFolder folder(request.output);
-  folder.facts() = facts_of(request, source);
+  const std::string hash_of_truth = truth_hash(request.session);  // read once: truth is as large as the session
+  folder.facts() = facts_of(request, source, hash_of_truth);
   ArtifactStore store(request.store);
   std::optional<GroundTruth> truth;
   const auto known_truth = [&]() -> const GroundTruth& {
@@ -155,7 +156,7 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   Steps steps(folder, progress);
   const std::string identity = identity_of(made);
   EndToEndResult result;
-  result.problems = known_problems(made, identity, request, steps);
+  result.problems = known_problems(made, hash_hex(identity + hash_of_truth), request, steps);
   folder.facts()["problems"] = to_json(result.problems);
   steps.run("out", identity, [&] { return with_prefix("out/", export_reconstruction(made, request.output / "out")); });
   steps.run("labels", made.segmentation.content_hash(),
@@ -164,8 +165,8 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   std::string scores_hash = "none";
   if (ground_truth_exists(request.session)) {
     const std::string scored =
-        hash_hex(folder.product_hash("out") + folder.product_hash("labels") + truth_hash(request.session) +
-                 request.scene + request.variant + std::to_string(request.options.seed) + code_version("eval"));
+        hash_hex(folder.product_hash("out") + folder.product_hash("labels") + hash_of_truth + request.scene +
+                 request.variant + std::to_string(request.options.seed) + code_version("eval"));
     steps.run("scores", scored, [&] { return write_scores(request, known_truth()); });
     result.scores = scores_from_json(request.output / "scores.json");
     scores_hash = folder.product_hash("scores");

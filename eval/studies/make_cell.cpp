@@ -15,10 +15,6 @@ struct Machine {
   int threads = 1;
 };
 
-double scale_of(const StudyPlan& plan, const StudyVariant& variant) {
-  return variant.scale > 0 ? variant.scale : plan.study.scale;
-}
-
 // Files that are not the study's own may have changed since it was planned.
 void check_unchanged(const PlannedScene& scene, const std::string& hash_now) {
   if (hash_now != scene.content_hash)
@@ -32,7 +28,7 @@ Scene scene_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& ma
   check_unchanged(planned, scene_hash(scene));
   if (!variant.rig.empty()) scene = with_rig(scene, machine.study / variant.rig);
   if (!variant.scan.empty()) scene = with_scan(scene, machine.study / variant.scan);
-  scene = scaled(scene, scale_of(plan, variant));
+  scene = scaled(scene, scale_of(plan, cell));
   choose_sensor(scene, variant.sensor);
   return scene;
 }
@@ -41,7 +37,7 @@ EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, co
                               const Machine& machine, CellCost& cost) {
   const StudyVariant& variant = plan.study.variants[cell.variant];
   SceneRunRequest request{scene_of(plan, cell, machine),
-                          scale_of(plan, variant),
+                          scale_of(plan, cell),
                           work,
                           machine.store,
                           variant.name,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -18,10 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kIdDigits = 20;  // of a hash
 
-// The files that a study brings into being in its folder, all of them known before the first is written.
-struct NewFiles {
-  std::vector<std::pair<fs::path, std::string>> files;  // relative name, bytes
-};
+// The files that a study brings into being in its folder, all of them known before the first is written: relative name,
+// bytes.
+using NewFiles = std::map<fs::path, std::string>;
 
 PlannedScene planned_file(const fs::path& file) {
   const Scene scene = read_scene(file);
@@ -35,9 +35,8 @@ PlannedScene planned_recording(const fs::path& folder) {
 PlannedScene planned_draw(const DrawOptions& options, Seed seed, NewFiles& fresh) {
   const DrawnScene drawn = draw_scene(options, seed);
   const fs::path file = fs::path("scenes") / (drawn.name + ".toml");
-  fresh.files.push_back({file, scene_toml(drawn)});
   Scene alone;  // its text is all there is to it: it names no other file
-  alone.toml = fresh.files.back().second;
+  alone.toml = fresh[file] = scene_toml(drawn);
   return {drawn.name, false, file, scene_hash(alone), strata_of(drawn)};
 }
 
@@ -63,12 +62,7 @@ void keep_file(fs::path& file, NewFiles& fresh) {
   const std::string bytes = read_file_bytes(file);
   const fs::path kept =
       fs::path("rigs") / fmt::format("{}_{}.toml", file.stem().string(), hash_hex(bytes).substr(0, 8));
-  for (const auto& [name, known] : fresh.files)
-    if (name == kept) {
-      file = kept;
-      return;
-    }
-  fresh.files.push_back({kept, bytes});
+  fresh[kept] = bytes;
   file = kept;
 }
 
@@ -110,7 +104,7 @@ StudyPlan plan_study(Study study, const std::string& as_written, const fs::path&
   plan.study.drawn.clear();
   const std::string text = plan_json(plan);
   check_free(folder, text);
-  for (const auto& [name, bytes] : fresh.files) {
+  for (const auto& [name, bytes] : fresh) {
     fs::create_directories((folder / name).parent_path());
     write_file_atomically(folder / name, bytes);
   }
@@ -126,6 +120,11 @@ StudyPlan read_plan(const fs::path& folder) {
   if (!fs::exists(file))
     throw InputError(folder.string(), "holds no study.json; expected a folder made by `dressform study new`");
   return plan_from_json(file);
+}
+
+double scale_of(const StudyPlan& plan, const PlannedCell& cell) {
+  const double own = plan.study.variants[cell.variant].scale;
+  return own > 0 ? own : plan.study.scale;
 }
 
 std::vector<PlannedCell> cells_of(const StudyPlan& plan, const fs::path& folder) {

@@ -43,6 +43,9 @@ StudyPlan read_plan(const std::filesystem::path& folder);
 // Two variants that ask for the same are one cell, with one id.
 std::vector<PlannedCell> cells_of(const StudyPlan& plan, const std::filesystem::path& folder);
 
+// Of the cell's cameras: the variant's, or the study's.
+double scale_of(const StudyPlan& plan, const PlannedCell& cell);
+
 std::filesystem::path cell_file(const std::filesystem::path& folder, const std::string& id);
 std::filesystem::path cost_file(const std::filesystem::path& folder, const std::string& id);
 

@@ -143,24 +143,28 @@ class CellRunner {
       if (!is_there(cell)) make_one(cell);
   }
 
+  // Whose cell it is, whether it failed or not.
+  MadeCell identified(MadeCell made, const PlannedCell& cell) const {
+    made.result.id = cell.id;
+    made.result.signature = request_.signature;
+    made.result.scene = plan_.scenes[cell.scene].name;
+    made.result.seed = cell.seed;
+    made.result.scale = scale_of(plan_, cell);
+    return made;
+  }
+
   MadeCell attempt(const PlannedCell& cell, const fs::path& work) const {
-    const double own_scale = plan_.study.variants[cell.variant].scale;
     CellResult failed;
-    failed.id = cell.id;
-    failed.signature = request_.signature;
-    failed.scene = plan_.scenes[cell.scene].name;
-    failed.seed = cell.seed;
-    failed.scale = own_scale > 0 ? own_scale : plan_.study.scale;
     failed.failed = true;
     try {
-      return make_(plan_, cell, work);
+      return identified(make_(plan_, cell, work), cell);
     } catch (const InputError& error) {
       failed.reason = error.what();
     } catch (const std::exception& error) {
       failed.reason = std::string("crash: ") + error.what();
     }
     failed.reason = without_paths(failed.reason.substr(0, failed.reason.find('\n')), cell, work);
-    return {failed, {}};
+    return identified({failed, {}}, cell);
   }
 
   // A reason names no folder of this machine or process: the same failure gives the same bytes. Files that a scene

@@ -9,6 +9,7 @@
 namespace dressform {
 
 // Makes one cell; `work` is a folder of its own for what it writes on the way. Whatever it throws makes a failed cell.
+// run_cells says whose cell it is (id, signature, scene, seed and scale of the result).
 using MakeCell = std::function<MadeCell(const StudyPlan&, const PlannedCell&, const std::filesystem::path& work)>;
 
 struct RunCellsRequest {

@@ -51,7 +51,6 @@ MadeCell mock_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::pat
       0.8 + 0.05 * normal(cell.scene, stream_of("mock scene"), 0) + (variant == "better" ? 0.05 : 0) +
       0.005 * normal(cell.seed, stream_of(variant == "again" ? "default" : variant.c_str()), cell.scene);
   MadeCell made;
-  made.result = {cell.id, kSignature, plan.scenes[cell.scene].name, cell.seed, plan.study.scale, false, "", {}, {}};
   made.result.scores = {{"surface", "top/f_5mm@1", "1", value, "ok", 10},
                         {"surface", "bottom/f_5mm@1", "1", value - 0.1, "ok", 10},
                         {"open", "top/rims_hd95_mm@1", "mm", 20 - value, "ok", 4}};
@@ -72,11 +71,16 @@ std::map<std::string, std::string> cell_bytes(const fs::path& folder) {
   return bytes;
 }
 
+StudyReport report_of(const fs::path& folder, bool seconds = true) {
+  const StudyResults results = read_results(folder);
+  return study_report(results, compare_variants(results), seconds);
+}
+
 std::size_t cell_count(const fs::path& folder) { return cell_bytes(folder).size(); }
 
 std::string report_bytes(const fs::path& folder) {
   std::string bytes;
-  for (const auto& file : write_study_report(folder, false)) bytes += read_file_bytes(file);
+  for (const auto& file : write_study_report(folder, false).files) bytes += read_file_bytes(file);
   return bytes;
 }
 
@@ -236,17 +240,16 @@ TEST(StudyRun, MergedStudiesAreTheWhole) {
 TEST(StudyReport, TwelveScenesTellFourDoNot) {
   const fs::path twelve = planned("twelve", 12), four = planned("four", 4);
   for (const auto& folder : {twelve, four}) run_mock(folder);
-  const std::string headline = study_report(read_results(twelve)).headline;
+  const std::string headline = report_of(twelve).headline;
   EXPECT_EQ(headline, "surface <slot>/f_5mm@1 against default: better better; worse failing; equivalent again");
-  EXPECT_EQ(study_report(read_results(four)).headline,
-            "surface <slot>/f_5mm@1 against default: inconclusive better, again, failing");
-  EXPECT_NE(report_markdown(study_report(read_results(four))).find("Fewer than 6 scenes"), std::string::npos);
+  EXPECT_EQ(report_of(four).headline, "surface <slot>/f_5mm@1 against default: inconclusive better, again, failing");
+  EXPECT_NE(report_markdown(report_of(four)).find("Fewer than 6 scenes"), std::string::npos);
 }
 
 TEST(StudyReport, FailuresShowThreeTimes) {
   const fs::path folder = planned("three_ways", 12);
   run_mock(folder);
-  const std::string text = report_markdown(study_report(read_results(folder)));
+  const std::string text = report_markdown(report_of(folder));
   EXPECT_NE(text.find("8 of 12"), std::string::npos);                     // success rate
   EXPECT_NE(text.find("better 3, worse 9, equal 0"), std::string::npos);  // with failures as the worst rank
   EXPECT_NE(text.find("has no clothes"), std::string::npos);
@@ -255,14 +258,13 @@ TEST(StudyReport, FailuresShowThreeTimes) {
 TEST(StudyReport, FetchesNothingAndSaysSecondsOnlyWhereAsked) {
   const fs::path folder = planned("html", 6);
   run_mock(folder);
-  const StudyResults results = read_results(folder);
-  const std::string with = report_html(study_report(results)), without = report_html(study_report(results, false));
+  const std::string with = report_html(report_of(folder)), without = report_html(report_of(folder, false));
   EXPECT_EQ(with.find("http://"), with.find("http://www.w3.org/2000/svg"));  // a name of a format, not an address
   EXPECT_EQ(with.find("https://"), std::string::npos);
   EXPECT_EQ(with.find("<script"), std::string::npos);
   EXPECT_NE(with.find("of baseline"), std::string::npos);
   EXPECT_EQ(without.find("of baseline"), std::string::npos);
-  const std::string csv = results_csv(results);
+  const std::string csv = results_csv(read_results(folder));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 6 * 2);  // variants, scenes, metrics
 }
 
