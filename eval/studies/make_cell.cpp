@@ -90,7 +90,7 @@ MadeCell foreign_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::
     request.session = recording_of(plan, cell, machine);
   } else {
     ArtifactStore store(machine.store);
-    const auto capture = stored_capture(scene_of(plan, cell, machine), scale_of(plan, variant), cell.seed, store, {});
+    const auto capture = stored_capture(scene_of(plan, cell, machine), scale_of(plan, cell), cell.seed, store, {});
     made.cost.capture_seconds = capture.seconds;
     request.session = capture.session;
   }
@@ -117,13 +117,7 @@ MadeCell pipeline_cell(const StudyPlan& plan, const PlannedCell& cell, const fs:
 
 MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
   const StudyVariant& variant = plan.study.variants[cell.variant];
-  MadeCell made = variant.foreign ? foreign_cell(plan, cell, work, machine) : pipeline_cell(plan, cell, work, machine);
-  made.result.id = cell.id;
-  made.result.signature = program_signature();
-  made.result.scene = plan.scenes[cell.scene].name;
-  made.result.seed = cell.seed;
-  made.result.scale = scale_of(plan, variant);
-  return made;
+  return variant.foreign ? foreign_cell(plan, cell, work, machine) : pipeline_cell(plan, cell, work, machine);
 }
 
 }  // namespace
