@@ -47,7 +47,7 @@ void add_run_facts(const fs::path& file, RunRow& row) {
 
 std::string signature_text(const Signature& signature) {
   std::string text;
-  for (const char* name : {"code", "metrics"})
+  for (const char* name : {"commit", "code", "metrics"})
     if (const auto found = signature.find(name); found != signature.end())
       text += (text.empty() ? "" : ", ") + std::string(name) + " " + found->second;
   return text;

@@ -54,11 +54,15 @@ Signature program_signature() {
           {"embree", RTC_VERSION_STRING}};
 }
 
+Signature comparable(Signature signature) {
+  signature.erase(kCommit);
+  return signature;
+}
+
 std::string difference_of(const Signature& a, const Signature& b) {
   std::set<std::string> names;
   for (const auto* signature : {&a, &b})
-    for (const auto& [name, value] : *signature)
-      if (name != kCommit) names.insert(name);
+    for (const auto& [name, value] : comparable(*signature)) names.insert(name);
   const auto value_in = [](const Signature& signature, const std::string& name) {
     const auto found = signature.find(name);
     return found == signature.end() ? std::string("none") : found->second;

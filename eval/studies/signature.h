@@ -11,6 +11,9 @@ namespace dressform {
 using Signature = std::map<std::string, std::string>;
 Signature program_signature();
 
+// Without what does not count: equal where numbers may be compared.
+Signature comparable(Signature signature);
+
 // What differs, for people: "code 1f.. and 2e.., opencv 4.6.0 and 4.8.1"; empty where nothing does.
 std::string difference_of(const Signature& a, const Signature& b);
 

@@ -237,6 +237,19 @@ TEST(StudyRun, MergedStudiesAreTheWhole) {
   EXPECT_THROW(merge_studies(left, {right}), InputError);
 }
 
+TEST(StudyRun, AnotherCommitOfTheSameCodeIsNoOtherProgram) {
+  const fs::path left = planned("commit_left", 2), right = planned("commit_right", 2);
+  for (const auto& [folder, commit] : {std::pair(left, "1a"), std::pair(right, "2b")}) {
+    RunCellsRequest request{folder, {}, kSignature};
+    request.signature["commit"] = commit;
+    run_cells(read_plan(folder), request, mock_cell);
+  }
+  EXPECT_EQ(merge_studies(left, {right}).taken, 0);  // the same numbers
+  const auto cells = cells_of(read_plan(left), left);
+  write_file_atomically(cell_file(left, cells[0].id), read_file_bytes(cell_file(right, cells[0].id)));
+  EXPECT_EQ(read_results(left).signature.at("commit"), "1a and 2b");
+}
+
 TEST(StudyReport, TwelveScenesTellFourDoNot) {
   const fs::path twelve = planned("twelve", 12), four = planned("four", 4);
   for (const auto& folder : {twelve, four}) run_mock(folder);

@@ -8,6 +8,7 @@
 #include <open3d/io/ImageIO.h>
 #include <open3d/io/TriangleMeshIO.h>
 #include <open3d/pipelines/registration/Registration.h>
+#include <open3d/pipelines/registration/RobustKernel.h>
 #include <open3d/pipelines/registration/TransformationEstimation.h>
 #include <open3d/utility/Logging.h>
 
@@ -24,7 +25,8 @@ using open3d::geometry::TriangleMesh;
 
 namespace {
 
-constexpr double kAlignRadius_m = 1.5;    // about the world's axis: person and floor, by which views are aligned
+constexpr double kAlignRadius_m = 4.0;    // about the world's axis: person, floor and walls, by which views are aligned
+constexpr double kFarthestTurn_deg = 15;  // three times what a prior of a rig is usually wrong by
 constexpr double kPersonRadius_m = 0.65;  // the person alone, arms away from the body
 constexpr double kFloor_m = 0.03;         // below is floor
 constexpr double kSplit = 0.54;           // of the person's height, between what is worn above and below: the waist
@@ -100,15 +102,18 @@ std::shared_ptr<PointCloud> within(const PointCloud& cloud, double radius_m, dou
   return cloud.SelectByIndex(kept);
 }
 
-// Moves `cloud`, which the prior has put roughly in place, onto `target`: two rounds of point-to-plane ICP.
+// Moves `cloud`, which the prior has put roughly in place, onto `target`: point-to-plane ICP from coarse to fine, the
+// room first. What it moves farther than the prior can be wrong it has moved to the wrong place: then the prior stays.
 Eigen::Matrix4d aligned(const PointCloud& cloud, const PointCloud& target, double voxel_m) {
   namespace registration = open3d::pipelines::registration;
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
-  for (const double reach_m : {20 * voxel_m, 5 * voxel_m})
-    motion = registration::RegistrationICP(cloud, target, reach_m, motion,
-                                           registration::TransformationEstimationPointToPlane())
+  for (const double reach_m : {0.25, 0.1, 4 * voxel_m})
+    motion = registration::RegistrationICP(
+                 cloud, target, reach_m, motion,
+                 registration::TransformationEstimationPointToPlane(std::make_shared<registration::TukeyLoss>(reach_m)))
                  .transformation_;
-  return motion;
+  const double turn_deg = Eigen::AngleAxisd(Eigen::Matrix3d(motion.block<3, 3>(0, 0))).angle() * 180 / M_PI;
+  return turn_deg < kFarthestTurn_deg ? motion : Eigen::Matrix4d(Eigen::Matrix4d::Identity());
 }
 
 // The surface's part between two heights, its largest piece.
