@@ -3,11 +3,11 @@
 
 #include "eval/gate/golden_case.h"
 #include "scenes/image_file.h"
-#include "scenes/session_fuzz.h"
+#include "scenes/testing/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto golden = [] {
-    const auto folder = dressform::fuzz_folder("fuzz_golden");
+    const auto folder = dressform::fuzz_folder("golden");
     std::filesystem::create_directories(folder / "case");
     dressform::write_png(folder / "case/top.png", cv::Mat(4, 4, CV_8UC3, cv::Scalar(1, 2, 3)));
     return folder;

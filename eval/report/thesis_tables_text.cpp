@@ -81,7 +81,7 @@ std::string tables_csv(const std::vector<ThesisTable>& tables) {
       const std::vector<std::string> what(row.names.begin() + 1, row.names.end());
       for (const auto& figure : row.figures) {
         const std::vector<std::string> fields{std::to_string(table.number),
-                                              row.run,
+                                              row.names.front(),
                                               fmt::format("{}", fmt::join(what, " / ")),
                                               figure.measure,
                                               figure.value,

@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "eval/inspect/canvas.h"
+#include "render/ticks.h"
 
 namespace dressform {
 namespace {
 
 constexpr double kNames = 250, kPlot = 520, kSide = 24, kRow = 26, kTop = 30, kBottom = 44;
 constexpr double kLetter = 12;
+constexpr int kMostParts = 6;  // between ticks
 const Ink kBlack{30, 30, 30, 1}, kGrey{150, 150, 150, 1}, kScene{70, 110, 160, 0.45}, kMargin{120, 170, 120, 0.18};
 
 struct Range {
@@ -37,14 +39,6 @@ Range range_of(const std::vector<VariantSummary>& summaries, std::size_t metric,
   return {range.low - air, range.high + air};
 }
 
-// A step of 1, 2 or 5 times a power of ten that gives four to ten ticks.
-double tick_step(const Range& range) {
-  const double rough = (range.high - range.low) / 6, power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10 * power;
-}
-
 class Forest {
  public:
   Forest(const Range& range, std::size_t rows)
@@ -60,7 +54,7 @@ class Forest {
           kMargin);
     canvas_.polyline({{x(0), kTop}, {x(0), base}}, kGrey, 1, false);
     canvas_.polyline({{x(range_.low), base}, {x(range_.high), base}}, kBlack, 1, false);
-    const double step = tick_step(range_);
+    const double step = round_step(range_.high - range_.low, kMostParts);
     for (double at = std::ceil(range_.low / step) * step; at <= range_.high; at += step) {
       canvas_.polyline({{x(at), base}, {x(at), base + 4}}, kBlack, 1, false);
       canvas_.text({x(at), base + 17}, fmt::format("{:g}", std::abs(at) < 1e-9 * step ? 0 : at), 11, Canvas::middle,
