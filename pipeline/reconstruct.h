@@ -11,6 +11,7 @@
 #include "pipeline/landmarks/landmarks.h"
 #include "pipeline/multipath/multipath.h"
 #include "pipeline/run/artifact_store.h"
+#include "pipeline/run/given_artifacts.h"
 #include "pipeline/run/lazy_artifact.h"
 #include "scenes/picks.h"
 
@@ -75,9 +76,9 @@ struct Reconstruction {
 };
 
 // The whole pipeline. Throws InputError for unknown stages, variants and parameters, and for picks that a variant needs
-// and the session lacks, before any stage runs.
+// and the session lacks, before any stage runs. Stages whose results are `given` do not run.
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
-                           const StageProgress& progress = {});
+                           const StageProgress& progress = {}, const GivenArtifacts& given = {});
 
 // The registered stages in the order of the pipeline, with their variants and parameters: for --help, checks and
 // reports.

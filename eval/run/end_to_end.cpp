@@ -5,6 +5,7 @@
 #include <chrono>
 #include <opencv2/imgcodecs.hpp>
 
+#include "eval/oracle/oracle.h"
 #include "eval/report/report.h"
 #include "eval/run/export.h"
 #include "eval/run/run_folder.h"
@@ -128,6 +129,7 @@ json facts_of(const EndToEndRequest& request, const SessionSource& source, const
   facts["seed"] = request.options.seed;
   facts["store"] = fs::absolute(request.store).lexically_normal().string();
   facts["options"] = to_json(request.options);
+  if (!request.oracles.empty()) facts["oracles"] = request.oracles;
   facts["session"] = {{"path", fs::absolute(request.session).string()},
                       {"content_hash", source.session.content_hash()},
                       {"truth_hash", truth}};
@@ -143,7 +145,15 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   const std::string hash_of_truth = truth_hash(request.session);  // read once: truth is as large as the session
   folder.facts() = facts_of(request, source, hash_of_truth);
   ArtifactStore store(request.store);
-  const Reconstruction made = reconstruct(source, request.options, store, progress.stage);
+  std::optional<GroundTruth> truth;
+  const auto known_truth = [&]() -> const GroundTruth& {
+    if (!truth) truth = read_ground_truth(request.session);
+    return *truth;
+  };
+  const Reconstruction made =
+      request.oracles.empty()
+          ? reconstruct(source, request.options, store, progress.stage)
+          : reconstruct_with_truth(source, request.options, store, progress.stage, request.oracles, known_truth());
   folder.facts()["stages"] = json::array();
   for (const auto& record : made.records) folder.facts()["stages"].push_back(to_json(record));
   write_stage_folders(request.output / "stages", made.records, store);
@@ -157,11 +167,6 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   steps.run("labels", made.segmentation.content_hash(),
             [&] { return write_labels(made, segment_folder(made), request.output); });
 
-  std::optional<GroundTruth> truth;
-  const auto known_truth = [&]() -> const GroundTruth& {
-    if (!truth) truth = read_ground_truth(request.session);
-    return *truth;
-  };
   std::string scores_hash = "none";
   if (ground_truth_exists(request.session)) {
     const std::string scored =

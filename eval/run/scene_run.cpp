@@ -22,6 +22,7 @@ EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress&
                            request.variant, request.options, false,        request.threads};
   pipeline.report = request.report;
   pipeline.result_images = request.result_images;
+  pipeline.oracles = request.oracles;
   pipeline.facts = {{"scene_file", request.scene.file.string()},
                     {"scene_toml", request.scene.toml},
                     {"scale", request.scale},

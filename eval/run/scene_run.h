@@ -21,8 +21,10 @@ struct SceneRunRequest {
   std::string variant = "default";
   ReconstructionOptions options;
   int threads = 1;
-  bool report = true;  // these two: see EndToEndRequest
+  bool report = true;  // these three: see EndToEndRequest
   bool result_images = false;
+  bool report = true;                     // see EndToEndRequest
+  std::vector<std::string> oracles = {};
 };
 struct SceneRunProgress {
   SynthesisProgress capture;

@@ -45,6 +45,7 @@ EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, co
                           machine.threads};
   request.options.seed = cell.seed;
   request.report = false;
+  request.oracles = variant.oracles;
   SceneRunProgress progress;
   progress.captured = [&cost](const StoredCapture& capture) { cost.capture_seconds = capture.seconds; };
   return run_scene(request, progress);
@@ -76,6 +77,7 @@ EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell
   request.options.seed = cell.seed;
   request.threads = machine.threads;
   request.report = false;
+  request.oracles = variant.oracles;
   return run_end_to_end(request, {});
 }
 
@@ -88,7 +90,7 @@ MadeCell foreign_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::
     request.session = recording_of(plan, cell, machine);
   } else {
     ArtifactStore store(machine.store);
-    const auto capture = stored_capture(scene_of(plan, cell, machine), scale_of(plan, variant), cell.seed, store, {});
+    const auto capture = stored_capture(scene_of(plan, cell, machine), scale_of(plan, cell), cell.seed, store, {});
     made.cost.capture_seconds = capture.seconds;
     request.session = capture.session;
   }
@@ -115,13 +117,7 @@ MadeCell pipeline_cell(const StudyPlan& plan, const PlannedCell& cell, const fs:
 
 MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
   const StudyVariant& variant = plan.study.variants[cell.variant];
-  MadeCell made = variant.foreign ? foreign_cell(plan, cell, work, machine) : pipeline_cell(plan, cell, work, machine);
-  made.result.id = cell.id;
-  made.result.signature = program_signature();
-  made.result.scene = plan.scenes[cell.scene].name;
-  made.result.seed = cell.seed;
-  made.result.scale = scale_of(plan, variant);
-  return made;
+  return variant.foreign ? foreign_cell(plan, cell, work, machine) : pipeline_cell(plan, cell, work, machine);
 }
 
 }  // namespace

@@ -87,7 +87,11 @@ std::string content_of(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 StudyPlan plan_study(const fs::path& study_file, const fs::path& folder) {
-  StudyPlan plan{read_study(study_file), {}};
+  return plan_study(read_study(study_file), read_file_bytes(study_file), folder);
+}
+
+StudyPlan plan_study(Study study, const std::string& as_written, const fs::path& folder) {
+  StudyPlan plan{std::move(study), {}};
   check_variants(plan.study);
   NewFiles fresh;
   plan.scenes = planned_scenes(plan.study, fresh);
@@ -106,7 +110,7 @@ StudyPlan plan_study(const fs::path& study_file, const fs::path& folder) {
   }
   fs::create_directories(folder / "cells");
   fs::create_directories(folder / "costs");
-  write_file_atomically(folder / "study.toml", read_file_bytes(study_file));
+  write_file_atomically(folder / "study.toml", as_written);
   write_file_atomically(folder / "study.json", text);  // last: a folder with it is whole
   return plan;
 }

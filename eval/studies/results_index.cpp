@@ -35,7 +35,7 @@ std::int64_t modified_seconds(const fs::path& file) {
 
 std::string signature_text(const Signature& signature) {
   std::string text;
-  for (const char* name : {"code", "metrics"})
+  for (const char* name : {"commit", "code", "metrics"})
     if (const auto found = signature.find(name); found != signature.end())
       text += (text.empty() ? "" : ", ") + std::string(name) + " " + found->second;
   return text;

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "eval/studies/masked_paths.h"
+#include "eval/studies/shared_file.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/temporary_files.h"
@@ -105,7 +106,7 @@ class CellRunner {
       : plan_(plan), request_(request), make_(make), progress_(progress) {}
 
   RunCellsSummary run() {
-    const auto cells = chosen_cells(plan_, request_);
+    const auto cells = cells_ = chosen_cells(plan_, request_);
     total_ = static_cast<int>(cells.size());
     for (const auto& cell : cells) done_ += is_there(cell);
     summary_.present = done_;
@@ -129,7 +130,7 @@ class CellRunner {
  private:
   bool is_there(const PlannedCell& cell) const {
     const fs::path file = cell_file(request_.folder, cell.id);
-    if (!fs::exists(file)) return false;
+    if (!can_be_opened(file)) return false;
     const CellResult found = read_cell(file);
     const std::string other = difference_of(found.signature, request_.signature);
     if (!other.empty() && !request_.renew)
@@ -181,13 +182,18 @@ class CellRunner {
   }
 
   void make_one(const PlannedCell& cell) {
+    if (request_.workers > 1)  // others make cells too
+      done_ = static_cast<int>(std::count_if(cells_.begin(), cells_.end(), [&](const PlannedCell& each) {
+        return fs::exists(cell_file(request_.folder, each.id));
+      }));
     if (progress_.begin) progress_.begin(cell, done_, total_, seconds_left());
     const auto start = std::chrono::steady_clock::now();
     const fs::path work = work_folder(request_.folder, cell.id);
     fs::create_directories(work);
     const MadeCell made = attempt(cell, work);
     write_file_atomically(cost_file(request_.folder, cell.id), cost_json(made.cost));
-    write_file_atomically(cell_file(request_.folder, cell.id), cell_json(made.result));
+    (request_.durable ? write_file_durably : write_file_atomically)(cell_file(request_.folder, cell.id),
+                                                                    cell_json(made.result));
     put_away(work, cell.id);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     spent_ += seconds;
@@ -207,12 +213,15 @@ class CellRunner {
     fs::rename(work, kept);
   }
 
-  double seconds_left() const { return summary_.made == 0 ? -1 : (total_ - done_) * spent_ / summary_.made; }
+  double seconds_left() const {
+    return summary_.made == 0 ? -1 : (total_ - done_) * spent_ / summary_.made / request_.workers;
+  }
 
   const StudyPlan& plan_;
   const RunCellsRequest& request_;
   const MakeCell& make_;
   const RunCellsProgress& progress_;
+  std::vector<PlannedCell> cells_;
   RunCellsSummary summary_;
   int done_ = 0, total_ = 0;
   double spent_ = 0;

@@ -18,6 +18,8 @@ struct RunCellsRequest {
   Signature signature;            // of this program
   bool retry_failed = false;      // failed cells once more
   bool renew = false;             // cells of other programs anew; false: they are an error
+  int workers = 1;                // processes that work on the study now, this one counted: for the time that is left
+  bool durable = false;           // each cell is on the disk before it has its name: power may fail, folders be shared
   bool keep_work = false;         // each cell's run stays in work/<cell id>
 };
 

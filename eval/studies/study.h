@@ -18,6 +18,7 @@ struct StudyVariant {
   VariantChoice sensor;                    // empty: the scene's
   std::filesystem::path rig, scan;         // instead of the scene's; empty: the scene's
   double scale = 0;                        // 0: the study's
+  std::vector<std::string> oracles;        // stages that truth stands in for
   std::optional<ForeignPipeline> foreign;  // instead of the pipeline: `options` are empty then
 };
 

@@ -41,7 +41,7 @@ std::string interval_csv(const std::optional<Interval>& interval) {
 
 std::string signature_hash(const Signature& signature) {
   std::string text;
-  for (const auto& [name, value] : signature) text += name + " " + value + "\n";
+  for (const auto& [name, value] : comparable(signature)) text += name + " " + value + "\n";
   return hash_hex(text).substr(0, 12);
 }
 

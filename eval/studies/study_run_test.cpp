@@ -200,6 +200,17 @@ TEST(StudyRun, NumbersOfDifferentProgramsAreNotCompared) {
   EXPECT_NO_THROW(read_results(folder));
 }
 
+TEST(StudyRun, SignatureNamesAllThatNumbersDependOn) {
+  Signature own = program_signature();
+  for (const char* name : {"dressform", "commit", "code", "metrics", "compiler", "opencv", "open3d", "embree"})
+    EXPECT_FALSE(own[name].empty()) << name;
+  Signature other = own;
+  other["commit"] = "another";
+  EXPECT_EQ(difference_of(own, other), "");  // of the same code
+  other["open3d"] = "0.0.0";
+  EXPECT_EQ(difference_of(own, other), "open3d " + own["open3d"] + " and 0.0.0");
+}
+
 TEST(StudyRun, DamagedCellsAreNamed) {
   const fs::path folder = planned("damaged", 2);
   EXPECT_THROW(read_results(folder), InputError);  // nothing there yet
@@ -224,6 +235,19 @@ TEST(StudyRun, MergedStudiesAreTheWhole) {
   changed.reason += "!";
   write_file_atomically(file, cell_json(changed));
   EXPECT_THROW(merge_studies(left, {right}), InputError);
+}
+
+TEST(StudyRun, AnotherCommitOfTheSameCodeIsNoOtherProgram) {
+  const fs::path left = planned("commit_left", 2), right = planned("commit_right", 2);
+  for (const auto& [folder, commit] : {std::pair(left, "1a"), std::pair(right, "2b")}) {
+    RunCellsRequest request{folder, {}, kSignature};
+    request.signature["commit"] = commit;
+    run_cells(read_plan(folder), request, mock_cell);
+  }
+  EXPECT_EQ(merge_studies(left, {right}).taken, 0);  // the same numbers
+  const auto cells = cells_of(read_plan(left), left);
+  write_file_atomically(cell_file(left, cells[0].id), read_file_bytes(cell_file(right, cells[0].id)));
+  EXPECT_EQ(read_results(left).signature.at("commit"), "1a and 2b");
 }
 
 TEST(StudyReport, TwelveScenesTellFourDoNot) {

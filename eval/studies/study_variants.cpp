@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "eval/oracle/oracle.h"
 #include "eval/studies/checked_values.h"
 #include "pipeline/run/preset.h"
 #include "synthetic/sensors/sensor_model.h"
@@ -151,6 +152,31 @@ void add_file_axis(TomlSection& section, const char* key, std::filesystem::path 
   axes.push_back(axis);
 }
 
+// oracle = "open": truth stands in for a stage's result.
+void add_oracle_axis(TomlSection& section, std::vector<Axis>& axes) {
+  const toml::node* node = section.find("oracle");
+  if (!node) return;
+  Axis axis;
+  for (const auto* each : values_of(*node)) {
+    const std::string label = text_of(*each, "oracle");
+    check_oracle(where_of(*each) + ": oracle", label);
+    axis.push_back({"oracle." + label, [label](StudyVariant& variant) { variant.oracles = {label}; }});
+  }
+  axes.push_back(axis);
+}
+
+// One a stage that truth can stand in for, alone.
+std::vector<StudyVariant> all_oracles() {
+  std::vector<StudyVariant> variants;
+  for (const auto& label : oracle_labels()) {
+    StudyVariant variant;
+    variant.name = "oracle." + label;
+    variant.oracles = {label};
+    variants.push_back(variant);
+  }
+  return variants;
+}
+
 void add_scale_axis(TomlSection& section, std::vector<Axis>& axes) {
   const toml::node* node = section.find("scale");
   if (!node) return;
@@ -222,9 +248,9 @@ void take_foreign(TomlSection& section, const std::optional<ForeignPipeline>& fo
   if (!foreign) return;
   for (auto& variant : variants) {
     if (variant.name == "default") section.fail("name", "is missing; expected a name for what the command runs");
-    if (!variant.options.variants.empty() || !variant.options.values.empty())
+    if (!variant.options.variants.empty() || !variant.options.values.empty() || !variant.oracles.empty())
       section.fail("command",
-                   "found it beside a preset, stages or set; expected it without them (sensor, rig, scan, "
+                   "found it beside a preset, stages, set or oracle; expected it without them (sensor, rig, scan, "
                    "scale and set.sensor are the capture's)");
     variant.foreign = foreign;
   }
@@ -240,6 +266,9 @@ std::vector<StudyVariant> read_study_variants(TomlSection& section, std::string 
   bool every_preset = false;
   section("every_preset", every_preset, "");
   if (every_preset) return all_presets();
+  bool every_oracle = false;
+  section("every_oracle", every_oracle, "");
+  if (every_oracle) return all_oracles();
   const std::optional<ForeignPipeline> foreign = read_foreign_pipeline(section);
   std::vector<Axis> axes;
   add_preset_axis(section, axes);
@@ -249,6 +278,7 @@ std::vector<StudyVariant> read_study_variants(TomlSection& section, std::string 
   add_file_axis(section, "rig", &StudyVariant::rig, axes);
   add_file_axis(section, "scan", &StudyVariant::scan, axes);
   add_scale_axis(section, axes);
+  add_oracle_axis(section, axes);
   std::size_t count = 1;
   for (const auto& axis : axes)
     if ((count *= axis.size()) > kMostVariants)

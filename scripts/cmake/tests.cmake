@@ -83,3 +83,8 @@ set_tests_properties(house PROPERTIES LABELS unit)
 add_test(NAME package COMMAND ${CMAKE_SOURCE_DIR}/scripts/package_test ${CMAKE_BINARY_DIR})
 set_tests_properties(package PROPERTIES LABELS unit TIMEOUT 600)
 add_dependencies(eval_test dressform_archive)
+# The example of a foreign pipeline, built as a stranger builds it, and a study that runs it.
+add_subdirectory(scripts/examples/open3d_pipeline ${CMAKE_BINARY_DIR}/open3d_pipeline)
+add_test(NAME foreign_pipeline COMMAND ${CMAKE_SOURCE_DIR}/scripts/foreign_pipeline_test $<TARGET_FILE:dressform>
+                                       $<TARGET_FILE:open3d_pipeline>)
+set_tests_properties(foreign_pipeline PROPERTIES LABELS unit TIMEOUT 600)
