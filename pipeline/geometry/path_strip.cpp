@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 #include <stdexcept>
+
+#include "pipeline/geometry/point_tree.h"
 
 namespace dressform {
 namespace {
-
-struct Nearest {
-  const std::vector<Vector3d>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Nearest>, Nearest, 3>;
 
 struct Side {
   int low, high, triangle, corner;
@@ -108,14 +98,13 @@ std::vector<Vector3d> path_midpoints(const MeshQuery& surface, const std::vector
 std::vector<double> centroid_distances(const Mesh& mesh, const std::vector<Vector3d>& points) {
   std::vector<double> distances(mesh.triangles.size(), std::numeric_limits<double>::infinity());
   if (points.empty()) return distances;
-  const Nearest adaptor{points};
-  const Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const PointTree tree(points);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
     const Vector3d centroid = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
     std::uint32_t nearest = 0;
     double squared = 0;
-    if (tree.knnSearch(centroid.data(), 1, &nearest, &squared)) distances[i] = std::sqrt(squared);
+    if (tree.nearest(centroid, nearest, squared)) distances[i] = std::sqrt(squared);
   }
   return distances;
 }
