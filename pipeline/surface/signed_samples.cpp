@@ -4,28 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <nanoflann.hpp>
-#include <numeric>
 #include <set>
 
 #include "pipeline/geometry/biharmonic_field.h"
+#include "pipeline/geometry/point_tree.h"
 
 namespace dressform {
 namespace {
 
 constexpr int kFewestCentres = 8;  // a linear part takes four; fewer than twice that is no surface
-
-struct SamplePoints {
-  const std::vector<Vector3d>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using SampleTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SamplePoints>, SamplePoints, 3>;
 
 using Cell = std::array<long, 3>;
 Cell cell_of(const Vector3d& point, double size_m) {
@@ -58,15 +45,14 @@ SignedSamples signed_samples(const PointCloud& cloud, double offset_m, double ne
   samples.points = cloud.points;
   samples.distances_m.assign(cloud.points.size(), 0);
   if (cloud.points.empty()) return samples;
-  const SamplePoints adaptor{cloud.points};
-  const SampleTree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const PointTree tree(cloud.points);
   for (std::size_t i = 0; i < cloud.points.size(); i += static_cast<std::size_t>(every))
     for (const double side : {1.0, -1.0})
       for (double away_m = offset_m; away_m >= nearest_m; away_m /= 2) {
         const Vector3d point = cloud.points[i] + side * away_m * cloud.normals[i];
         std::uint32_t nearest = 0;
         double squared = 0;
-        if (!tree.knnSearch(point.data(), 1, &nearest, &squared) || nearest != i) continue;
+        if (!tree.nearest(point, nearest, squared) || nearest != i) continue;
         samples.points.push_back(point);
         samples.distances_m.push_back(side * away_m);
         break;
