@@ -19,17 +19,8 @@ constexpr int kMargin_px = 4;      // between photographs, in their own colour, 
 constexpr int kNoTexture_px = 16;  // width of the grey that a garment without any view gets
 const cv::Scalar kGrey(128, 128, 128);
 
-ViewParams as_photographed() {
-  ViewParams view;
-  view.denoise = 0;
-  view.chroma_px = 0;
-  view.filled_trust = 1;
-  view.occluder_gap_m = 10;  // nothing hides anything
-  return view;
-}
-
 struct ThesisFourWayParams {
-  ViewParams view = as_photographed();
+  ViewParams view = projected_blindly();
   GainParams gain;
   PickedPartsParams parts;
   int largest_px = 4096;
