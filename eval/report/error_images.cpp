@@ -17,21 +17,12 @@ Mesh moved(const Mesh& mesh, const Isometry3d& target_from_source) {
   return transformed(mesh, target_from_source.matrix());
 }
 
-// Unsigned distance of every vertex to the other surface, millimetres.
-std::vector<double> distances_mm(const Mesh& mesh, const Mesh& truth) {
-  const MeshQuery query(truth);
-  std::vector<double> result(mesh.vertices.size());
-  tbb::parallel_for(std::size_t{0}, result.size(),
-                    [&](std::size_t i) { result[i] = 1000 * query.closest(mesh.vertices[i]).distance; });
-  return result;
-}
-
 Figure heat_map(const std::string& name, const std::string& title, const Mesh& mesh, const Mesh& truth,
                 Renderer& renderer) {
   RenderItem item;
   item.mesh = &mesh;
   item.shading = Shading::scalar;
-  item.scalars = distances_mm(mesh, truth);
+  item.scalars = vertex_distances_mm(mesh, truth);
   item.scalar_minimum = 0;
   item.scalar_maximum = kScaleMm;
   const cv::Mat image = with_color_bar(four_views(renderer, {item}, kHeight), 0, kScaleMm, "mm", "distance to truth");
@@ -63,6 +54,14 @@ Figure beside_truth(const std::string& slot, const TexturedMesh& truth, const Te
 }
 
 }  // namespace
+
+std::vector<double> vertex_distances_mm(const Mesh& mesh, const Mesh& truth) {
+  const MeshQuery query(truth);
+  std::vector<double> result(mesh.vertices.size());
+  tbb::parallel_for(std::size_t{0}, result.size(),
+                    [&](std::size_t i) { result[i] = 1000 * query.closest(mesh.vertices[i]).distance; });
+  return result;
+}
 
 std::vector<Figure> error_figures(const Reconstruction& made, const GroundTruth& truth, Renderer& renderer) {
   std::vector<Figure> figures;

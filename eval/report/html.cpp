@@ -26,40 +26,7 @@ pre { font-size: 12px; background: #f7f7f7; padding: 10px; overflow-x: auto; }
 summary { cursor: pointer; color: #25619b; }
 )";
 
-std::string base64(const std::vector<unsigned char>& bytes) {
-  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned value = bytes[i] << 16;
-    if (i + 1 < bytes.size()) value |= bytes[i + 1] << 8;
-    if (i + 2 < bytes.size()) value |= bytes[i + 2];
-    text += digits[value >> 18 & 63];
-    text += digits[value >> 12 & 63];
-    text += i + 1 < bytes.size() ? digits[value >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? digits[value & 63] : '=';
-  }
-  return text;
-}
-
 }  // namespace
-
-std::string html_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 void HtmlPage::heading(const std::string& text, const std::string& id) {
   contents_ += fmt::format("<a href=\"#{0}\">{1}</a>", html_escaped(id), html_escaped(text));
@@ -93,7 +60,7 @@ void HtmlPage::figure(const Figure& figure) {
   cv::imencode(".jpg", figure.image, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
   body_ += fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption><b>{0}.</b> {2}</figcaption></figure>\n",
-      html_escaped(figure.title), base64(bytes), html_escaped(figure.caption));
+      html_escaped(figure.title), base64(std::string(bytes.begin(), bytes.end())), html_escaped(figure.caption));
 }
 
 void HtmlPage::drawing(const std::string& title, const std::string& caption, const std::string& svg) {

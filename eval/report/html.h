@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "eval/report/image_tools.h"
+#include "render/charts/markup.h"
 
 namespace dressform {
 
@@ -30,7 +31,5 @@ class HtmlPage {
  private:
   std::string title_, contents_, body_;
 };
-
-std::string html_escaped(const std::string& text);
 
 }  // namespace dressform

@@ -23,7 +23,6 @@ struct SceneRunRequest {
   int threads = 1;
   bool report = true;  // these three: see EndToEndRequest
   bool result_images = false;
-  bool report = true;                     // see EndToEndRequest
   std::vector<std::string> oracles = {};
 };
 struct SceneRunProgress {

@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "render/charts/sheet.h"
+#include "render/charts/style.h"
+
 namespace dressform {
 
-// A chart as it is meant; drawn as SVG and as an image. Text may hold the letters σ, θ, ±, °, ² and ≤.
+// A chart as it is meant: what is drawn where, in which units, is the sheet's affair.
 struct Axis {
   std::string label;  // with its unit
   double minimum = 0, maximum = 1;
@@ -17,7 +20,7 @@ struct Curve {
   enum Style { line, dashed, dots, dotted_line };
   std::string name;  // in the legend
   Style style = line;
-  int color = 0;                        // of the chart's colours; 0 is black, for references
+  int color = 0;                        // of palette_ink; 0 is black, for references
   std::vector<Eigen::Vector2d> points;  // parts outside the axes are cut off
 };
 
@@ -67,11 +70,16 @@ Curve reference_curve(const std::string& name, double from, double to, const Fun
   return curve;
 }
 
+// The legend stands to the right where there is room, below the chart in a narrow column.
+Sheet chart_sheet(const Chart& chart, const FigureStyle& style = kScreenStyle);
 std::string chart_svg(const Chart& chart);
-// 8-bit BGR, twice as many pixels as the SVG has units.
-cv::Mat chart_image(const Chart& chart);
+cv::Mat chart_image(const Chart& chart);  // 8-bit BGR, at kScreenDpi
 
 // An axis from 0 (or below, where there are such values) that holds all of the chart's curves, bands and marks.
 Axis axis_around(const Chart& chart, const std::string& label);
+
+// Places and texts of an axis's ticks: at most `most` of them on a linear axis; 1, 2 and 5 times powers of ten on a
+// logarithmic one.
+std::vector<std::pair<double, std::string>> axis_ticks(const Axis& axis, int most);
 
 }  // namespace dressform
