@@ -1,9 +1,10 @@
 #include "scenes/toml_section.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <fstream>
+
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -154,10 +155,9 @@ void TomlSection::rotation(const char* name, Eigen::Matrix3d& value) {
       written(row, column) = number_in(numbers[column], full, -1.01, 1.01, "");
     }
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(written, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
+  const Eigen::Matrix3d nearest = nearest_rotation(written);  // far off, for a mirror
   const double off = (nearest - written).cwiseAbs().maxCoeff();
-  if (nearest.determinant() < 0 || !(off <= kRoundedRotation))
+  if (!(off <= kRoundedRotation))
     fail(name, "found a matrix that is no rotation; expected one to within " + to_text(FieldValue(kRoundedRotation)));
   value = nearest;
 }

@@ -1,8 +1,7 @@
 #include "eval/oracle/oracle_frames.h"
 
-#include <Eigen/SVD>
-
 #include "scenes/error.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 
@@ -19,16 +18,9 @@ Isometry3d mean_motion(const std::vector<Isometry3d>& motions, const Vector3d& c
     sum += motion.linear();
     image += motion * centre;
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-  if (turn.determinant() < 0) {
-    Eigen::Matrix3d u = svd.matrixU();
-    u.col(2) = -u.col(2);
-    turn = u * svd.matrixV().transpose();
-  }
   Isometry3d mean = Isometry3d::Identity();
-  mean.linear() = turn;
-  mean.translation() = image / static_cast<double>(motions.size()) - turn * centre;
+  mean.linear() = nearest_rotation(sum);
+  mean.translation() = image / static_cast<double>(motions.size()) - mean.linear() * centre;
   return mean;
 }
 
