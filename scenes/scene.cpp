@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "scenes/calibration_toml.h"
@@ -188,11 +187,22 @@ Scene read(TomlFiles& files, const std::filesystem::path& file) {
   return scene;
 }
 
+void read_other_rig(TomlSection& section, Scene& scene) {
+  scene.rig.clear();
+  read_rig(section, scene);
+}
+
+void read_other_scan(TomlSection& section, Scene& scene) {
+  scene.scan = {};
+  read_scan(section, scene.scan);
+}
+
+using ReadPart = void(TomlSection&, Scene&);
+
 // The scene with one part read from a file. All files that the part is made of stand in the text: a stored capture is
 // known by it.
-Scene with_part(const Scene& scene, const char* part, const std::filesystem::path& file,
-                const std::function<void(TomlSection&, Scene&)>& read_part) {
-  TomlFiles files;
+Scene with_part(const Scene& scene, const char* part, const std::filesystem::path& file, ReadPart* read_part,
+                TomlFiles& files) {
   TomlSection section(files, files.open(file, file.filename().string(), ""), part);
   Scene result = scene;
   read_part(section, result);
@@ -200,6 +210,12 @@ Scene with_part(const Scene& scene, const char* part, const std::filesystem::pat
   result.toml += std::string("\n# --- instead of its ") + part + "\n";
   for (const auto& each : files.files()) result.toml += as_comment(each);
   return result;
+}
+
+std::vector<std::string> names_of(const TomlFiles& files) {
+  std::vector<std::string> names;
+  for (const auto& file : files.files()) names.push_back(file.name);
+  return names;
 }
 
 }  // namespace
@@ -210,17 +226,25 @@ Scene read_scene(const std::filesystem::path& file) {
 }
 
 Scene with_rig(const Scene& scene, const std::filesystem::path& file) {
-  return with_part(scene, "rig", file, [](TomlSection& section, Scene& result) {
-    result.rig.clear();
-    read_rig(section, result);
-  });
+  TomlFiles files;
+  return with_part(scene, "rig", file, read_other_rig, files);
 }
 
 Scene with_scan(const Scene& scene, const std::filesystem::path& file) {
-  return with_part(scene, "scan", file, [](TomlSection& section, Scene& result) {
-    result.scan = {};
-    read_scan(section, result.scan);
-  });
+  TomlFiles files;
+  return with_part(scene, "scan", file, read_other_scan, files);
+}
+
+std::vector<std::string> files_of_rig(const std::filesystem::path& file) {
+  TomlFiles files;
+  with_part({}, "rig", file, read_other_rig, files);
+  return names_of(files);
+}
+
+std::vector<std::string> files_of_scan(const std::filesystem::path& file) {
+  TomlFiles files;
+  with_part({}, "scan", file, read_other_scan, files);
+  return names_of(files);
 }
 
 Scene scaled(const Scene& scene, double scale) {

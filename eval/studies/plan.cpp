@@ -11,6 +11,7 @@
 #include "scenes/capture_session.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"
+#include "scenes/scene_parts.h"
 
 namespace dressform {
 namespace {
@@ -57,8 +58,12 @@ std::vector<PlannedScene> planned_scenes(const Study& study, NewFiles& fresh) {
 }
 
 // A rig or scan that a variant brings along is copied, so that the folder can go to another machine.
-void keep_file(fs::path& file, NewFiles& fresh) {
+void keep_file(fs::path& file, std::vector<std::string> (*files_of)(const fs::path&), NewFiles& fresh) {
   if (file.empty()) return;
+  const auto parts = files_of(file);
+  if (parts.size() > 1)  // the copy would not find them, and a cell would not know when they change
+    throw InputError(file.string(),
+                     "refers to \"" + parts[1] + "\"; expected a file of a study's variant that stands alone");
   const std::string bytes = read_file_bytes(file);
   const fs::path kept =
       fs::path("rigs") / fmt::format("{}_{}.toml", file.stem().string(), hash_hex(bytes).substr(0, 8));
@@ -96,8 +101,8 @@ StudyPlan plan_study(Study study, const std::string& as_written, const fs::path&
   NewFiles fresh;
   plan.scenes = planned_scenes(plan.study, fresh);
   for (auto& variant : plan.study.variants) {
-    keep_file(variant.rig, fresh);
-    keep_file(variant.scan, fresh);
+    keep_file(variant.rig, files_of_rig, fresh);
+    keep_file(variant.scan, files_of_scan, fresh);
   }
   plan.study.scenes.clear();
   plan.study.recordings.clear();

@@ -98,6 +98,20 @@ TEST(StudyRun, PlanHoldsScenesAndIsPlannedOnce) {
   EXPECT_THROW(read_plan(fresh_folder("nothing")), InputError);
 }
 
+TEST(StudyRun, ARigOfSeveralFilesCannotBeKept) {
+  planned("rigs", 1);
+  const fs::path folder = testing::TempDir(), file = folder / "mock_study.toml";
+  const fs::path library = fs::path(DRESSFORM_SOURCE_DIR) / "scenes/library/rigs/ring3.toml";
+  const auto plan_with = [&](const std::string& rig) {
+    const fs::path copy = folder / "rig_study.toml";
+    write_file_atomically(copy, read_file_bytes(file) + "[[variant]]\nname = \"rig\"\nrig = \"" + rig + "\"\n");
+    return plan_study(copy, fresh_folder("rigs_planned"));
+  };
+  std::ofstream(folder / "outer_rig.toml") << "file = \"" << library.string() << "\"\n";
+  EXPECT_THROW(plan_with((folder / "outer_rig.toml").string()), InputError);
+  EXPECT_EQ(plan_with(library.string()).study.variants.back().rig.parent_path(), "rigs");
+}
+
 TEST(StudyRun, FinishedStudyDoesNothing) {
   const fs::path folder = planned("finished", 3, 2);
   const RunCellsSummary first = run_mock(folder), second = run_mock(folder);
