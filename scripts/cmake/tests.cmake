@@ -63,7 +63,8 @@ foreach(golden IN LISTS goldens)
   get_filename_component(case ${golden} DIRECTORY)
   get_filename_component(case ${case} NAME)
   add_test(NAME golden.${case} COMMAND dressform gate check ${case} --threads 1 --golden ${CMAKE_SOURCE_DIR}/golden
-                                       --work ${CMAKE_BINARY_DIR}/gate)
+                                       --work ${CMAKE_BINARY_DIR}/gate
+                                       --junit ${CMAKE_BINARY_DIR}/gate/${case}.xml)
   set_tests_properties(golden.${case} PROPERTIES TIMEOUT 1500 LABELS golden COST 2000)
   if(first)
     set_tests_properties(golden.${case} PROPERTIES DEPENDS ${first})

@@ -47,10 +47,9 @@ std::vector<DetectionCurve> detection_curves(const std::vector<Fault>& faults, c
       Detection size{k, 0, 0, 0};
       for (const auto& cell : cells) {
         if (cell.fault != fault.id() || cell.size != k) continue;
-        if (!had_effect(cell)) ++curve.without_effect;
-        if (!had_effect(cell)) continue;
-        ++size.placed;
-        size.found += cell.found;
+        curve.without_effect += !had_effect(cell);
+        size.placed += had_effect(cell);
+        size.found += had_effect(cell) && cell.found;
       }
       if (size.placed == 0) continue;
       size.at_least = wilson_interval(size.found, size.placed).low;
