@@ -10,21 +10,21 @@
 namespace dressform {
 namespace {
 
-struct Choice {
+struct StageChoice {
   std::string variant;
   FieldValues values;
-  bool operator==(const Choice& other) const { return variant == other.variant && values == other.values; }
+  bool operator==(const StageChoice& other) const { return variant == other.variant && values == other.values; }
 };
 
-Choice choice_of(const ReconstructionOptions& options, const StageDescription& stage) {
-  Choice choice{stage.default_variant, {}};
+StageChoice choice_of(const ReconstructionOptions& options, const StageDescription& stage) {
+  StageChoice choice{stage.default_variant, {}};
   if (const auto found = options.variants.find(stage.name); found != options.variants.end())
     choice.variant = found->second;
   if (const auto found = options.values.find(stage.name); found != options.values.end()) choice.values = found->second;
   return choice;
 }
 
-void choose(ReconstructionOptions& options, const std::string& stage, const Choice& choice) {
+void choose(ReconstructionOptions& options, const std::string& stage, const StageChoice& choice) {
   options.variants[stage] = choice.variant;
   options.values.erase(stage);
   if (!choice.values.empty()) options.values[stage] = choice.values;
@@ -108,9 +108,9 @@ std::string part_text(const StudyMetric& metric, double mean, const std::vector<
 
 AttributionStudy attribution_of(const ReconstructionOptions& a, const ReconstructionOptions& b) {
   AttributionStudy study;
-  std::vector<Choice> of_b;
+  std::vector<StageChoice> of_b;
   for (const auto& stage : describe_stages()) {
-    const Choice choice = choice_of(b, stage);
+    const StageChoice choice = choice_of(b, stage);
     if (choice_of(a, stage) == choice) continue;
     study.stages.push_back(stage.name);
     of_b.push_back(choice);

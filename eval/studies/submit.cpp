@@ -91,7 +91,7 @@ void check_request(const SubmitRequest& request) {
 
 }  // namespace
 
-std::string run_command(const SubmitRequest& request, const std::vector<std::string>& cells) {
+std::string task_command(const SubmitRequest& request, const std::vector<std::string>& cells) {
   std::string line = fmt::format("{} study run {} -q --threads {}", shell_word(request.program),
                                  shell_word(fs::absolute(request.study).string()), request.threads);
   if (!request.store.empty()) line += " --store " + shell_word(fs::absolute(request.store).string());
@@ -110,7 +110,7 @@ SubmitJobs write_jobs(const SubmitRequest& request) {
   const auto most = static_cast<std::size_t>(std::clamp(std::floor(fit), 1.0, double(kMostCellsOfTask)));
   std::string commands;
   const auto tasks = shared_out(left, most);
-  for (const auto& cells : tasks) commands += run_command(request, cells) + "\n";
+  for (const auto& cells : tasks) commands += task_command(request, cells) + "\n";
   jobs.task_count = static_cast<int>(tasks.size());
   const fs::path folder = fs::absolute(request.study) / "jobs";
   const std::string name = hash_hex(commands).substr(0, kJobDigits);

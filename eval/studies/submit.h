@@ -31,7 +31,7 @@ struct SubmitJobs {
 // share what lies before them, stay together as far as a task's time goes. The same missing cells give the same files.
 SubmitJobs write_jobs(const SubmitRequest& request);
 
-// One command for each of `groups`: those cells of the study, one after the other.
-std::string run_command(const SubmitRequest& request, const std::vector<std::string>& cells);
+// A command that makes those cells of the study, one after the other.
+std::string task_command(const SubmitRequest& request, const std::vector<std::string>& cells);
 
 }  // namespace dressform
