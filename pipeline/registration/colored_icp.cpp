@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pipeline/imaging/color_mapping.h"
-#include "pipeline/registration/open3d_icp.h"
+#include "pipeline/alignment/open3d_icp.h"
 #include "pipeline/registration/view_clouds.h"
 
 namespace dressform {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/registration/open3d_icp.h"
+#include "pipeline/alignment/open3d_icp.h"
 #include "pipeline/registration/view_clouds.h"
 
 namespace dressform {

@@ -1,6 +1,6 @@
 #include <tbb/parallel_for.h>
 
-#include "pipeline/registration/open3d_icp.h"
+#include "pipeline/alignment/open3d_icp.h"
 #include "pipeline/registration/view_clouds.h"
 
 namespace dressform {

@@ -4,7 +4,7 @@
 
 namespace dressform {
 
-// What the variants that work on clouds (open3d_icp.h) share.
+// What the variants that work on clouds (alignment/open3d_icp.h) share.
 
 // Mannequin and floor of a view, sensor frame, with normals; `floor`: whether the floor is among them.
 PointCloud view_cloud(const ViewPoints& view, bool floor = true);

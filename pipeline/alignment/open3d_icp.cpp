@@ -1,4 +1,4 @@
-#include "pipeline/registration/open3d_icp.h"
+#include "pipeline/alignment/open3d_icp.h"
 
 #include <omp.h>
 #include <open3d/geometry/KDTreeFlann.h>
