@@ -4,6 +4,7 @@ namespace dressform {
 
 const char* const kPagePolicy =
     "default-src 'none'; img-src data: blob:; media-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' "
+    "'wasm-unsafe-eval' "
     "blob:; connect-src data: blob:; worker-src blob:";
 
 // Colours of text on their grounds have a contrast of 4.5 at least (WCAG 2, AA), in both schemes.
