@@ -1,7 +1,5 @@
 #include <tbb/parallel_for.h>
 
-#include <functional>
-
 #include "scenes/calibration_json.h"
 #include "scenes/capture_session.h"
 #include "scenes/folder_hash.h"
