@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -101,7 +102,7 @@ class Pairing {
 Vector6d solve_twist(Matrix6d matrix, const Vector6d& vector) {
   constexpr double kDamping = 1e-9;  // keeps what no point holds where it is, and moves nothing else
   matrix.diagonal().array() += kDamping * matrix.trace();
-  return matrix.ldlt().solve(vector);
+  return solve_symmetric(matrix, vector);
 }
 
 bool negligible(const Vector6d& twist, double rotation_rad, double translation_m) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scenes/small_solvers.h"
+
 namespace dressform {
 namespace {
 
@@ -20,7 +22,7 @@ struct Fit {
 };
 Fit fit(const Eigen::MatrixXd& terms, const Eigen::VectorXd& values) {
   Fit result;
-  result.coefficients = (terms.transpose() * terms).ldlt().solve(terms.transpose() * values);
+  result.coefficients = solve_symmetric(terms.transpose() * terms, terms.transpose() * values);
   result.residuals = values - terms * result.coefficients;
   return result;
 }

@@ -1,9 +1,9 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "pipeline/registration/acceptance.h"
 #include "pipeline/registration/initial_poses.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -86,7 +86,7 @@ double joint_step(const std::vector<ViewPoints>& views, const std::vector<std::v
           overlap_weight);
     }
   }
-  const Eigen::VectorXd solution = system.matrix.ldlt().solve(system.vector);
+  const Eigen::VectorXd solution = solve_symmetric(system.matrix, system.vector);
   for (std::size_t v = 0; v < count; ++v)
     if (accepted[v])
       alignments[v].model_from_sensor = exponential(solution.segment<6>(6 * v)) * alignments[v].model_from_sensor;

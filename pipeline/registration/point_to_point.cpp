@@ -1,9 +1,9 @@
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "pipeline/registration/each_view.h"
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -45,13 +45,7 @@ struct Pairs {
 Isometry3d best_motion(const Pairs& pairs) {
   const Vector3d from = pairs.from / pairs.weight, to = pairs.to / pairs.weight;
   const Eigen::Matrix3d spread = pairs.product - pairs.weight * from * to.transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixV() * svd.matrixU().transpose();
-  if (turn.determinant() < 0) {
-    Eigen::Matrix3d v = svd.matrixV();
-    v.col(2) = -v.col(2);
-    turn = v * svd.matrixU().transpose();
-  }
+  const Eigen::Matrix3d turn = nearest_rotation(spread.transpose());
   Isometry3d motion = Isometry3d::Identity();
   motion.linear() = turn;
   motion.translation() = to - turn * from;

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/imaging/distance_transform.h"
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -62,7 +63,7 @@ cv::Mat near_plane(const cv::Mat& nats, const std::vector<int>& curve, int band_
       normal += weight * a * a.transpose();
       right += weight * curve[c] * a;
     }
-    plane = normal.ldlt().solve(right);
+    plane = solve_symmetric(normal, right);
   }
   cv::Mat result = nats.clone();
   for (int r = 0; r < nats.rows; ++r) {

@@ -9,9 +9,9 @@
 
 #include "scenes/disjoint_sets.h"
 #include "scenes/error.h"
+#include "scenes/mesh_sides.h"
 #include "scenes/triangle.h"
 #include "synthetic/geometry/joined_rims.h"
-#include "synthetic/geometry/mesh_sides.h"
 
 namespace dressform {
 namespace {
