@@ -46,10 +46,10 @@ struct OpenTag {
   static constexpr const char* default_variant = "limb_spline";
 };
 // The closed garments cut open at neck, cuffs, hem, waist and ankles. In: the dressed shots and labels, poses, the
-// naked body and its landmarks, closed garments with their layouts (m, model frame). Out: m, model frame; a garment
-// that does not come out as one piece with a loop for each opening is absent, and `failed` says why. Throws InputError
-// for a body without triangles. The thesis (section 3.4) picks points along the rims by hand and deletes the faces
-// beyond.
+// naked body and its landmarks, closed garments with their layouts (m, model frame). Out: m, model frame: manifold, of
+// one piece, with one boundary loop for each rim, and the rims by name. A garment that does not come out as one piece
+// with a loop for each opening is absent, and `failed` says why. Throws InputError for a body without triangles. The
+// thesis (section 3.4.2) picks points along the rims by hand and deletes the faces beyond.
 using Open = Stage<OpenTag, OpenGarments(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                          const Registration&, const Segmentation&, const ClosedGarments&)>;
 

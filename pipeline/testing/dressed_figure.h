@@ -125,6 +125,20 @@ inline std::pair<double, Label> look(const Camera& camera, const Isometry3d& mod
   return {0, Label::none};
 }
 
+// One of four sensors round the figure, quarter turns apart: model from sensor.
+inline Isometry3d looking_from_side(int k) {
+  Isometry3d model_from_sensor = Isometry3d::Identity();
+  model_from_sensor.rotate(Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()));
+  Eigen::Matrix3d facing;
+  facing.col(0) = Vector3d(1, 0, 0);
+  facing.col(1) = Vector3d(0, -1, 0);
+  facing.col(2) = Vector3d(0, 0, -1);
+  model_from_sensor.linear() = model_from_sensor.linear() * facing;
+  model_from_sensor.translation() =
+      Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()) * Vector3d(0, 0, 2.1) + Vector3d(0, 0.95, 0);
+  return model_from_sensor;
+}
+
 inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double scale = 0.5, Seed seed = 1) {
   Capture result;
   result.clothes = clothes;
@@ -137,15 +151,7 @@ inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double sc
   sensor.color_from_ir.translation() = Vector3d(0.05, 0, 0);
   for (int k = 0; k < 4; ++k) {
     const std::string name = "k" + std::to_string(k + 1);
-    Isometry3d model_from_sensor = Isometry3d::Identity();
-    model_from_sensor.rotate(Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()));
-    Eigen::Matrix3d facing;
-    facing.col(0) = Vector3d(1, 0, 0);
-    facing.col(1) = Vector3d(0, -1, 0);
-    facing.col(2) = Vector3d(0, 0, -1);
-    model_from_sensor.linear() = model_from_sensor.linear() * facing;
-    model_from_sensor.translation() =
-        Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()) * Vector3d(0, 0, 2.1) + Vector3d(0, 0.95, 0);
+    const Isometry3d model_from_sensor = looking_from_side(k);
     result.session.sensors.push_back(name);
     result.calibration.sensors[name] = sensor;
     result.registration.model_from_sensor[name] = model_from_sensor;
