@@ -193,6 +193,7 @@ TEST(Gate, FindingsAndStagesComeWorstFirst) {
   EXPECT_EQ(result.findings[0].what(), kF);
   EXPECT_EQ(result.findings[1].what(), kRotation);
   EXPECT_EQ(result.stages[0].stage, "surface");
+  EXPECT_EQ(result.blame, "registration") << "no bytes tell: the first stage of the pipeline that fails";
   EXPECT_EQ(result.stages[1].stage, "registration");
   EXPECT_EQ(result.stages[0].counts.at(ItemVerdict::worse), 1);
 }
