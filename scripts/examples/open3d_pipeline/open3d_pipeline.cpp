@@ -25,9 +25,10 @@ using open3d::geometry::TriangleMesh;
 
 namespace {
 
-constexpr double kAlignRadius_m = 1.0;    // about the world's axis: person and floor, by which views are aligned
-constexpr double kFarthestTurn_deg = 15;  // three times what a prior of a rig is usually wrong by
-constexpr double kFarthestStep_m = 0.25;  // likewise, at the person
+constexpr double kAlignRadius_m = 1.0;  // about the world's axis: person and floor, by which views are aligned
+constexpr double kFarthestTurn_deg =
+    20;  // three times what a prior of a rig is usually wrong by, one sensor against another
+constexpr double kFarthestStep_m = 0.5;   // likewise, at the person
 constexpr double kPersonRadius_m = 0.65;  // the person alone, arms away from the body
 constexpr double kFloor_m = 0.03;         // below is floor
 constexpr double kSplit = 0.54;           // of the person's height, between what is worn above and below: the waist
@@ -108,7 +109,7 @@ std::shared_ptr<PointCloud> within(const PointCloud& cloud, double radius_m, dou
 Eigen::Matrix4d aligned(const PointCloud& cloud, const PointCloud& target, double voxel_m) {
   namespace registration = open3d::pipelines::registration;
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
-  for (const double reach_m : {0.2, 0.08, 4 * voxel_m})
+  for (const double reach_m : {0.4, 0.15, 4 * voxel_m})
     motion = registration::RegistrationICP(
                  cloud, target, reach_m, motion,
                  registration::TransformationEstimationPointToPlane(std::make_shared<registration::TukeyLoss>(reach_m)))
