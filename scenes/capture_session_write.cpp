@@ -6,6 +6,7 @@
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
 #include "scenes/picks.h"
+#include "scenes/scan_poses.h"
 #include "scenes/session_folder.h"
 #include "scenes/session_layout.h"
 
@@ -94,6 +95,9 @@ void list_boards(const fs::path& folder, const Boards& boards, std::vector<Image
 
 void finish_session(NewFolder& folder, const CaptureSession& outline) {
   if (outline.calibration) write_calibration(folder.temporary() / "calibration.json", *outline.calibration);
+  for (const auto& [name, scan] : outline.scans)
+    if (!scan.world_from_frame.empty())
+      write_scan_poses(folder.temporary() / name / session_layout::kPoses, scan.world_from_frame);
   write_json(folder.temporary() / "session.json", session_json(outline));
   folder.keep();
 }
