@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/inspect/chart.h"
 #include "eval/report/image_tools.h"
+#include "render/charts/chart.h"
 
 namespace dressform {
 

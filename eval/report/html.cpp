@@ -4,62 +4,31 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "eval/report/html_assets.h"
+#include "eval/report/viewer_code.h"
+
 namespace dressform {
 namespace {
 
-constexpr const char* kStyle = R"(
-:root { color-scheme: light; }
-body { font: 15px/1.5 system-ui, "Segoe UI", sans-serif; color: #222; background: #fff; margin: 0 auto; padding: 24px;
-       max-width: 1240px; }
-h1 { font-size: 26px; margin: 0 0 4px; } h2 { font-size: 20px; margin: 36px 0 8px; border-bottom: 1px solid #ddd; }
-h3 { font-size: 16px; margin: 20px 0 6px; }
-nav { font-size: 13px; color: #666; } nav a { color: #25619b; margin-right: 12px; text-decoration: none; }
-.verdict { padding: 10px 14px; border-radius: 6px; margin: 14px 0; font-weight: 600; }
-.verdict.good { background: #e3f3e5; color: #1b5e20; } .verdict.bad { background: #fdeaea; color: #9b1c1c; }
-table { border-collapse: collapse; font-size: 13.5px; margin: 8px 0 14px; font-variant-numeric: tabular-nums; }
-th { text-align: left; font-weight: 600; border-bottom: 2px solid #bbb; padding: 4px 14px 4px 0; }
-td { border-bottom: 1px solid #eee; padding: 3px 14px 3px 0; white-space: nowrap; }
-td.good { color: #1b5e20; } td.bad { color: #b00020; font-weight: 600; } td.quiet { color: #888; }
-figure { margin: 10px 0 18px; } figure img, figure svg { max-width: 100%; height: auto; border: 1px solid #eee; }
-figcaption { font-size: 13px; color: #555; } figcaption b { color: #222; }
-pre { font-size: 12px; background: #f7f7f7; padding: 10px; overflow-x: auto; }
-summary { cursor: pointer; color: #25619b; }
-)";
+// A picture as a JPEG inside the page, decoded when it comes into sight; its size is known before.
+std::string image_tag(const cv::Mat& image, const std::string& alt) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
+  return fmt::format(
+      "<img alt=\"{}\" width=\"{}\" height=\"{}\" loading=\"lazy\" decoding=\"async\" "
+      "src=\"data:image/jpeg;base64,{}\">",
+      html_escaped(alt), image.cols, image.rows, base64(std::string(bytes.begin(), bytes.end())));
+}
 
-std::string base64(const std::vector<unsigned char>& bytes) {
-  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned value = bytes[i] << 16;
-    if (i + 1 < bytes.size()) value |= bytes[i + 1] << 8;
-    if (i + 2 < bytes.size()) value |= bytes[i + 2];
-    text += digits[value >> 18 & 63];
-    text += digits[value >> 12 & 63];
-    text += i + 1 < bytes.size() ? digits[value >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? digits[value & 63] : '=';
-  }
-  return text;
+std::string caption_tag(const std::string& title, const std::string& caption) {
+  return fmt::format("<figcaption><b>{}.</b> {}</figcaption>", html_escaped(title), html_escaped(caption));
+}
+
+std::string data_tag(const std::string& id, const std::string& bytes) {
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64(bytes));
 }
 
 }  // namespace
-
-std::string html_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 void HtmlPage::heading(const std::string& text, const std::string& id) {
   contents_ += fmt::format("<a href=\"#{0}\">{1}</a>", html_escaped(id), html_escaped(text));
@@ -75,9 +44,9 @@ void HtmlPage::verdict(const std::string& text, bool good) {
 }
 
 void HtmlPage::table(const std::vector<std::string>& columns, const std::vector<std::vector<Cell>>& rows) {
-  body_ += "<table><tr>";
-  for (const auto& column : columns) body_ += "<th>" + html_escaped(column) + "</th>";
-  body_ += "</tr>\n";
+  body_ += "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"table\"><table><thead><tr>";
+  for (const auto& column : columns) body_ += "<th scope=\"col\">" + html_escaped(column) + "</th>";
+  body_ += "</tr></thead>\n<tbody>";
   for (const auto& row : rows) {
     body_ += "<tr>";
     for (const auto& cell : row)
@@ -85,20 +54,42 @@ void HtmlPage::table(const std::vector<std::string>& columns, const std::vector<
                            html_escaped(cell.text));
     body_ += "</tr>\n";
   }
-  body_ += "</table>\n";
+  body_ += "</tbody></table></div>\n";
 }
 
 void HtmlPage::figure(const Figure& figure) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", figure.image, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
+  body_ += fmt::format("<figure>{}{}</figure>\n", image_tag(figure.image, figure.title + ". " + figure.caption),
+                       caption_tag(figure.title, figure.caption));
+}
+
+void HtmlPage::comparison(const ImageComparison& comparison) {
+  scripts_ = true;
+  body_ += "<figure class=\"compare\"><div class=\"layers\">\n";
+  for (const auto& [word, image] : {std::pair("New", &comparison.made), std::pair("Reference", &comparison.reference),
+                                    std::pair("Difference", &comparison.difference)})
+    body_ += fmt::format("<div class=\"layer\"><span>{}</span>{}</div>\n", word,
+                         image_tag(*image, comparison.title + ", " + word));
+  body_ += "</div>" + caption_tag(comparison.title, comparison.caption) + "</figure>\n";
+}
+
+void HtmlPage::model(const std::string& title, const std::string& glb) {
+  static const std::string viewer = viewer_code_gzip();
+  if (viewer.empty())
+    return paragraph(title +
+                     ": no 3D view, as the program was built without @google/model-viewer; the GLB files in out/ "
+                     "hold the garments.");
+  scripts_ = true;
+  const std::string id = fmt::format("model-{}", ++models_);
+  if (models_ == 1) body_ += data_tag("viewer-code", viewer);
   body_ += fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption><b>{0}.</b> {2}</figcaption></figure>\n",
-      html_escaped(figure.title), base64(bytes), html_escaped(figure.caption));
+               "<div class=\"model\" data-model=\"{}\" data-title=\"{}\"><noscript>{}: the 3D view needs "
+               "scripts.</noscript></div>\n",
+               id, html_escaped(title), html_escaped(title)) +
+           data_tag(id, glb);
 }
 
 void HtmlPage::drawing(const std::string& title, const std::string& caption, const std::string& svg) {
-  body_ += fmt::format("<figure>{}<figcaption><b>{}.</b> {}</figcaption></figure>\n", svg, html_escaped(title),
-                       html_escaped(caption));
+  body_ += "<figure>" + svg + caption_tag(title, caption) + "</figure>\n";
 }
 
 void HtmlPage::preformatted(const std::string& summary, const std::string& text) {
@@ -109,9 +100,12 @@ void HtmlPage::preformatted(const std::string& summary, const std::string& text)
 std::string HtmlPage::text() const {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head>\n<body><h1>{0}</h1>\n"
-      "<nav>{2}</nav>\n{3}</body></html>\n",
-      html_escaped(title_), kStyle, contents_, body_);
+      "content=\"width=device-width, initial-scale=1\"><meta http-equiv=\"Content-Security-Policy\" content=\"{4}\">"
+      "<title>{0}</title><style>{1}</style></head>\n<body><a class=\"skip\" href=\"#content\">To the content</a>"
+      "<header><h1>{0}</h1>\n<nav aria-label=\"Parts of this page\">{2}</nav></header>\n<main id=\"content\">{3}</main>"
+      "{5}</body></html>\n",
+      html_escaped(title_), kPageStyle, contents_, body_, kPagePolicy,
+      scripts_ ? std::string("<script>") + kPageScript + "</script>" : "");
 }
 
 }  // namespace dressform

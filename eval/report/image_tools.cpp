@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "render/charts/cairo_canvas.h"
+
 namespace dressform {
 
 cv::Mat side_by_side(const std::vector<cv::Mat>& images, int height, int gap) {
@@ -72,8 +74,9 @@ cv::Mat infrared_image(const cv::Mat& ir) {
 
 cv::Mat titled(const cv::Mat& image, const std::string& text) {
   cv::Mat result;
-  cv::copyMakeBorder(image, result, 22, 0, 0, 0, cv::BORDER_CONSTANT, cv::Scalar::all(255));
-  cv::putText(result, text, {4, 16}, cv::FONT_HERSHEY_SIMPLEX, 0.48, cv::Scalar::all(40), 1, cv::LINE_AA);
+  cv::Mat strip(22, image.cols, CV_8UC3, cv::Scalar::all(255));
+  write_text(strip, {4, 16}, text, 14);
+  cv::vconcat(strip, image, result);
   return result;
 }
 

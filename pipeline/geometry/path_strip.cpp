@@ -63,16 +63,6 @@ Pieces edge_connected_pieces(const TriangleNeighbours& neighbours, const std::ve
   return pieces;
 }
 
-std::vector<double> triangle_areas_m2(const Mesh& mesh) {
-  std::vector<double> areas;
-  areas.reserve(mesh.triangles.size());
-  for (const Vector3i& t : mesh.triangles) {
-    const Vector3d& a = mesh.vertices[t[0]];
-    areas.push_back(0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm());
-  }
-  return areas;
-}
-
 double mean_edge_m(const Mesh& mesh) {
   double sum = 0;
   for (const Vector3i& t : mesh.triangles)

@@ -17,6 +17,7 @@
 #include "pipeline/open/open_scene.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/support_distance.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {

@@ -2,10 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -120,7 +121,7 @@ void step_view(const Mesh& mesh, ColorView& view, LumaView& image, const VertexS
   Matrix6d damped = now.normal;
   damped.diagonal() *= 1 + image.damping;
   damped.diagonal().array() += image.damping * now.normal.trace() / kUnknowns;
-  const Vector6d step = damped.ldlt().solve(now.right);
+  const Vector6d step = solve_symmetric(damped, now.right);
   if (!step.allFinite()) return;
   const ColorView trial = moved(view, motion_of(step));
   const Difference then = difference(mesh, trial, image, samples, column, means, least_facing);

@@ -11,6 +11,7 @@
 #include "pipeline/texture/picked_parts.h"
 #include "scenes/error.h"
 #include "scenes/picks.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {
@@ -126,8 +127,7 @@ TexturedMesh projected_parts(const GarmentViews& garment, const std::vector<std:
     const ColorView& view = garment.views[view_of[t]];
     const Vector3i& corners = mesh.triangles[t];
     result.corner_uv[t] = projected(view, map.left_px[view_of[t]], map, mesh, corners);
-    const Vector3d& a = mesh.vertices[corners[0]];
-    const double area = (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a).norm() / 2;
+    const double area = triangle_area_m2(mesh, corners);
     whole += area;
     if (shown(view, mesh, corners, params.view)) seen += area;
   }
