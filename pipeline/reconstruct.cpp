@@ -92,10 +92,10 @@ LazyArtifact<FacingClues> facing_like(const LazyArtifact<KnownBody>& known) {
 }  // namespace
 
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
-                           const StageProgress& progress) {
+                           const StageProgress& progress, const GivenArtifacts& given) {
   check_options(options);
   check_picks(options, source);
-  StageRunner runner(options, store, progress);
+  StageRunner runner(options, store, progress, given);
   if (source.picks) runner.set_picks(*source.picks);
 
   const auto calibrated = runner.run<Calibrate>("calibrate", source.session);

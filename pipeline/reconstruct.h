@@ -11,6 +11,7 @@
 #include "pipeline/landmarks/landmarks.h"
 #include "pipeline/multipath/multipath.h"
 #include "pipeline/run/artifact_store.h"
+#include "pipeline/run/given_artifacts.h"
 #include "pipeline/run/lazy_artifact.h"
 #include "scenes/picks.h"
 
@@ -23,6 +24,10 @@ struct ReconstructionOptions {
   Seed seed = 1;
 };
 
+// Another variant of a stage takes nothing of what was set for the one before; the same variant again changes nothing.
+// Whether there are such a stage and variant is check_options' to say.
+void choose_variant(ReconstructionOptions& options, const std::string& stage, const std::string& variant);
+
 // What one stage did in this run.
 struct StageRecord {
   int number = 0;
@@ -32,6 +37,7 @@ struct StageRecord {
   double seconds = 0;  // of the run that made the artifact
   double peak_memory_mb = 0;
   bool reused = false;
+  std::string content_hash;  // of the result; empty while it is being made
 };
 using StageProgress = std::function<void(const StageRecord&, bool finished)>;
 
@@ -70,9 +76,9 @@ struct Reconstruction {
 };
 
 // The whole pipeline. Throws InputError for unknown stages, variants and parameters, and for picks that a variant needs
-// and the session lacks, before any stage runs.
+// and the session lacks, before any stage runs. Stages whose results are `given` do not run.
 Reconstruction reconstruct(const SessionSource& source, const ReconstructionOptions& options, ArtifactStore& store,
-                           const StageProgress& progress = {});
+                           const StageProgress& progress = {}, const GivenArtifacts& given = {});
 
 // The registered stages in the order of the pipeline, with their variants and parameters: for --help, checks and
 // reports.

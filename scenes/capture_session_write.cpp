@@ -1,11 +1,10 @@
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <functional>
 
 #include "scenes/calibration_json.h"
 #include "scenes/capture_session.h"
-#include "scenes/hash.h"
+#include "scenes/folder_hash.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
 #include "scenes/picks.h"
@@ -114,21 +113,7 @@ void write_capture_session(const fs::path& folder, const CaptureSession& session
 
 std::string session_content_hash(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder.string(), "is missing; expected the folder of a session");
-  std::vector<std::string> names;
-  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-    const std::string name = entry->path().filename().string();
-    if (entry.depth() == 0 &&
-        (name == "truth" || name == kPicksFolder || name[0] == '.'))  // '.': left by a writer that was killed
-      entry.disable_recursion_pending();
-    else if (entry->is_regular_file())
-      names.push_back(entry->path().lexically_relative(folder).generic_string());
-  }
-  std::sort(names.begin(), names.end());
-  std::vector<std::string> hashes(names.size());
-  tbb::parallel_for(std::size_t(0), names.size(), [&](std::size_t i) { hashes[i] = hash_file(folder / names[i]); });
-  std::string all;
-  for (std::size_t i = 0; i < names.size(); ++i) all += names[i] + '\0' + hashes[i] + '\n';
-  return hash_hex(all);
+  return hash_folder(folder, {"truth", kPicksFolder});
 }
 
 }  // namespace dressform

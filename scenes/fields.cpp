@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "scenes/error.h"
+#include "scenes/length_units.h"
 
 namespace dressform {
 namespace {
@@ -38,10 +39,11 @@ T in_range(const std::string& where, T value, T minimum, T maximum, const char* 
 
 std::string likely_unit(double value, double minimum, double maximum, const std::string& unit) {
   if (unit != "m" || (value >= minimum && value <= maximum)) return "";
-  const std::pair<const char*, double> others[] = {{"centimetres", 0.01}, {"millimetres", 0.001}};
-  for (const auto& [name, metres] : others)
-    if (value * metres >= minimum && value * metres <= maximum && value * metres != 0)
-      return std::string("; looks like ") + name;
+  for (const char* name : {"cm", "mm"}) {
+    const LengthUnit& meant = length_unit(name);
+    const double metres = value * meant.metres;
+    if (metres >= minimum && metres <= maximum && metres != 0) return std::string("; looks like ") + meant.plural;
+  }
   return "";
 }
 

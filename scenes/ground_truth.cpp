@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
 #include "scenes/mesh_io.h"
+#include "scenes/new_folder.h"
 
 namespace dressform {
 namespace {
@@ -210,18 +210,9 @@ GroundTruth read_ground_truth(const fs::path& session_folder) {
 }
 
 void write_ground_truth(const fs::path& session_folder, const GroundTruth& truth) {
-  const fs::path folder = session_folder / "truth";
-  if (fs::exists(folder)) throw InputError(folder.string(), "is there already; expected a session without truth");
-  const fs::path temporary = session_folder / (".truth_" + std::to_string(getpid()) + ".part");
-  fs::remove_all(temporary);
-  fs::create_directories(temporary);
-  try {
-    write_all(temporary, truth);
-    fs::rename(temporary, folder);
-  } catch (...) {
-    fs::remove_all(temporary);
-    throw;
-  }
+  NewFolder folder(session_folder / "truth");
+  write_all(folder.temporary(), truth);
+  folder.keep();
 }
 
 }  // namespace dressform

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 
 #include "scenes/fields.h"
 #include "scenes/session_limits.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -117,8 +117,7 @@ Isometry3d JsonValue::rigid() const {
   Isometry3d result = Isometry3d::Identity();
   result.linear() = written;
   if (off > kExact) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(written, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    result.linear() = svd.matrixU() * svd.matrixV().transpose();
+    result.linear() = nearest_rotation(written);
   }
   result.translation() = matrix.topRightCorner<3, 1>();
   return result;

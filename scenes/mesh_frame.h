@@ -3,20 +3,21 @@
 #include <functional>
 #include <string>
 
+#include "scenes/length_units.h"
 #include "scenes/mesh.h"
 
 namespace dressform {
 
 // How the coordinates of someone's mesh file are meant. The world is in metres, y up, floor y = 0, facing +z.
 struct MeshFrame {
-  std::string unit = "m";  // m, dm, cm, mm, inch, foot
+  std::string unit = "m";  // a name of kLengthUnits
   std::string up = "y";    // the file's axis that points up: y, z (its front at -y) or x
   double lift_m = 0;       // added to the heights, after the two above
 };
 
 template <class V>
 void fields(V& v, MeshFrame& frame) {
-  v("unit", frame.unit, {"m", "dm", "cm", "mm", "inch", "foot"}, "what one unit of the mesh's coordinates is");
+  v("unit", frame.unit, length_unit_names(), "what one unit of the mesh's coordinates is");
   v("up", frame.up, {"y", "z", "x"}, "the mesh's axis that points up");
   v("lift_m", frame.lift_m, -3.0, 3.0, "m", "how far the mesh is lifted, to stand on the floor y = 0");
 }

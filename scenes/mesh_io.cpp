@@ -36,20 +36,10 @@ void join(FileMesh& file) {
     file.mesh.vertices = std::move(vertices);
     for (Vector3i& t : file.mesh.triangles) t = {new_from_old[t[0]], new_from_old[t[1]], new_from_old[t[2]]};
   }
-  std::size_t to = 0;
-  for (std::size_t i = 0; i < file.mesh.triangles.size(); ++i) {
-    const Vector3i& t = file.mesh.triangles[i];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    file.mesh.triangles[to] = t;
-    if (!file.corner_uv.empty()) file.corner_uv[to] = file.corner_uv[i];
-    if (!file.corner_color.empty()) file.corner_color[to] = file.corner_color[i];
-    if (!file.material.empty()) file.material[to] = file.material[i];
-    ++to;
-  }
-  file.mesh.triangles.resize(to);
-  if (!file.corner_uv.empty()) file.corner_uv.resize(to);
-  if (!file.corner_color.empty()) file.corner_color.resize(to);
-  if (!file.material.empty()) file.material.resize(to);
+  std::vector<char> kept;
+  kept.reserve(file.mesh.triangles.size());
+  for (const Vector3i& t : file.mesh.triangles) kept.push_back(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+  keep_triangles(kept, file);
 }
 
 FileMesh read_checked(const std::filesystem::path& path, Wanted wanted) {

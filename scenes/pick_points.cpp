@@ -29,10 +29,23 @@ std::string shown(std::string_view text) {
   return result;
 }
 
-int line_of(const std::string& text, std::ptrdiff_t offset) {
-  const auto end = std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + end, '\n'));
-}
+// Lines of a text by offsets that do not fall: all of them together read it once.
+class Lines {
+ public:
+  explicit Lines(const std::string& text) : text_(text) {}
+  // Lines count from 1. An offset outside the text is that of its nearer end.
+  int at(std::ptrdiff_t offset) {
+    const auto end = std::clamp<std::ptrdiff_t>(offset, seen_, static_cast<std::ptrdiff_t>(text_.size()));
+    line_ += static_cast<int>(std::count(text_.begin() + seen_, text_.begin() + end, '\n'));
+    seen_ = end;
+    return line_;
+  }
+
+ private:
+  const std::string& text_;
+  std::ptrdiff_t seen_ = 0;
+  int line_ = 1;
+};
 
 [[noreturn]] void fail(const std::string& where, int line, const std::string& problem) {
   throw InputError(where + ":" + std::to_string(line), problem);
@@ -79,17 +92,18 @@ std::vector<Vector3d> points_of_pick_points(const std::string& where, const std:
   pugi::xml_document document;
   const auto parsed = document.load_buffer(text.data(), text.size());
   if (!parsed)
-    fail(where, line_of(text, parsed.offset),
+    fail(where, Lines(text).at(parsed.offset),
          std::string("is not XML (") + parsed.description() + "); expected MeshLab's PickPoints");
   const auto root = document.child("PickedPoints");
   if (!root)
     fail(where, 1,
          "found " + shown(document.document_element().name()) +
              " as the outermost element; expected PickedPoints, as MeshLab's PickPoints tool saves it");
+  Lines lines(text);
   std::vector<Vector3d> points;
   for (const auto node : root.children("point")) {
     if (std::string_view(node.attribute("active").value()) == "0") continue;
-    const int line = line_of(text, node.offset_debug());
+    const int line = lines.at(node.offset_debug());
     check_room(where, line, points.size());
     points.push_back(point_of(where, line, node));
   }

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <map>
 #include <opencv2/core.hpp>
 #include <set>
 
@@ -13,6 +13,7 @@
 #include "scenes/file_bytes.h"
 #include "scenes/folder_hash.h"
 #include "scenes/image_file.h"
+#include "scenes/new_folder.h"
 #include "scenes/pick_names.h"
 #include "scenes/pick_points.h"
 #include "scenes/pick_regions.h"
@@ -32,17 +33,19 @@ const std::set<std::string> kPointFiles{".pp", ".txt", ".csv", ".asc"};
 // What is wrong with points for coordinates in metres in that frame; empty: nothing.
 std::string problem_with_points(const std::string& frame, const std::vector<Vector3d>& points) {
   const bool body = frame == kModelFrame || frame == kUserFrame;
+  const double most = body ? kMostBody_m : kMostDepth_m;
+  const auto found = [](const Vector3d& point) {
+    return fmt::format("found a point at ({:g}, {:g}, {:g})", point.x(), point.y(), point.z());
+  };
   for (const Vector3d& point : points) {
-    const std::string found = fmt::format("found a point at ({:g}, {:g}, {:g})", point.x(), point.y(), point.z());
-    const double most = body ? kMostBody_m : kMostDepth_m;
     if (!(point.norm() <= most))
-      return fmt::format("{}; expected metres, at most {:g} m from the origin{}", found, most,
+      return fmt::format("{}; expected metres, at most {:g} m from the origin{}", found(point), most,
                          unit_guess(point.norm(), 0.2, body ? 2.5 : 4));
     if (!body && point.z() < kLeastDepth_m)
       return fmt::format(
           "{}; expected points before the infrared camera \"{}\": x right, y down, z forward, metres "
           "(picked on the model? then they belong to picks/model)",
-          found, frame);
+          found(point), frame);
   }
   return {};
 }
@@ -160,8 +163,14 @@ class Reader {
       throw InputError(file.string(), "found \"" + name + "\" twice; expected it in one file");
   }
 
-  // Of the sensor's colour image, in which regions are drawn.
-  cv::Size image_size(const std::string& sensor, const fs::path& file) const {
+  // Of the sensor's colour image, in which regions are drawn; looked up once for all regions of a sensor.
+  cv::Size image_size(const std::string& sensor, const fs::path& file) {
+    const auto known = image_sizes_.find(sensor);
+    if (known != image_sizes_.end()) return known->second;
+    return image_sizes_[sensor] = find_image_size(sensor, file);
+  }
+
+  cv::Size find_image_size(const std::string& sensor, const fs::path& file) const {
     if (outline_.calibration) {
       const auto& color = outline_.calibration->sensors.at(sensor).color;
       if (color) return {color->width, color->height};
@@ -192,6 +201,7 @@ class Reader {
   fs::path session_, root_;
   CaptureSession outline_;
   Picks picks_;
+  std::map<std::string, cv::Size> image_sizes_;  // by sensor
   std::size_t files_ = 0;
 };
 
@@ -204,6 +214,16 @@ std::vector<std::string> Picks::names() const {
   return result;
 }
 
+cv::Mat picked_region(const Picks& picks, const std::string& name, const cv::Size& size) {
+  const auto found = picks.regions.find(name);
+  if (found == picks.regions.end()) return {};
+  const cv::Mat& region = found->second;
+  if (region.size() != size)
+    throw InputError("picks: " + name, fmt::format("is {} x {}; expected the colour image's size, {} x {}", region.cols,
+                                                   region.rows, size.width, size.height));
+  return region;
+}
+
 std::optional<Picks> read_picks(const fs::path& session) {
   if (!fs::exists(session / kPicksFolder)) return {};
   if (!fs::is_directory(session / kPicksFolder))
@@ -212,25 +232,17 @@ std::optional<Picks> read_picks(const fs::path& session) {
 }
 
 void write_picks(const fs::path& session, const Picks& picks) {
-  const fs::path folder = session / kPicksFolder;
-  if (fs::exists(folder)) throw InputError(folder.string(), "is there already; expected a session without picks");
-  const fs::path temporary = session / (".picks_" + std::to_string(getpid()) + ".part");
-  fs::remove_all(temporary);
-  fs::create_directories(temporary);
-  try {
-    for (const auto& [name, parts] : picks.points)
-      for (const auto& part : parts) {
-        fs::create_directories(temporary / part.frame);
-        write_file_atomically(temporary / part.frame / (name + ".pp"), pick_points_text(part.points));
-      }
-    const std::vector<std::pair<std::string, cv::Mat>> regions(picks.regions.begin(), picks.regions.end());
-    tbb::parallel_for(std::size_t{0}, regions.size(),
-                      [&](std::size_t i) { write_png(temporary / (regions[i].first + ".png"), regions[i].second); });
-    fs::rename(temporary, folder);
-  } catch (...) {
-    fs::remove_all(temporary);
-    throw;
-  }
+  NewFolder folder(session / kPicksFolder);
+  for (const auto& [name, parts] : picks.points)
+    for (const auto& part : parts) {
+      fs::create_directories(folder.temporary() / part.frame);
+      write_file_atomically(folder.temporary() / part.frame / (name + ".pp"), pick_points_text(part.points));
+    }
+  const std::vector<std::pair<std::string, cv::Mat>> regions(picks.regions.begin(), picks.regions.end());
+  tbb::parallel_for(std::size_t{0}, regions.size(), [&](std::size_t i) {
+    write_png(folder.temporary() / (regions[i].first + ".png"), regions[i].second);
+  });
+  folder.keep();
 }
 
 std::string picks_content_hash(const fs::path& session) { return hash_folder(session / kPicksFolder); }

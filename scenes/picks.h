@@ -28,6 +28,10 @@ struct Picks {
   std::vector<std::string> names() const;
 };
 
+// The picked region of this name (uint8, 255 inside), which has to be as large as the colour image it was drawn in; an
+// empty one where there is none of that name. Throws InputError naming it for one of another size.
+cv::Mat picked_region(const Picks& picks, const std::string& name, const cv::Size& size);
+
 // The folder `picks` of a session: formats and names in scenes/README.md. Nothing where there is no such folder.
 // Strict: throws InputError that names file and line for what can't be read, and for names and frames that mean
 // nothing.

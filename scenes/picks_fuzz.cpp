@@ -1,6 +1,6 @@
 // What a person picked: the first byte chooses the format, the others are the file's content.
 #include "scenes/picks.h"
-#include "scenes/session_fuzz.h"
+#include "scenes/testing/fuzz_file.h"
 
 namespace {
 
@@ -8,16 +8,15 @@ const char* const kFiles[] = {"model/rim_top_neck.pp", "k1/rim_top_neck.txt", "k
                               "region_top_k1.png"};
 
 std::filesystem::path session() {
-  const auto folder = dressform::fuzz_folder("fuzz_picks");
-  const auto write = [&](const char* name, const std::string& text) {
-    dressform::write_fuzzed(folder / name, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  };
+  const auto folder = dressform::fuzz_folder("picks");
   const std::string camera = R"({"width": 48, "height": 27, "fx": 27, "fy": 27, "cx": 23.5, "cy": 13,
     "distortion": [0, 0, 0, 0, 0]})";
-  write("calibration.json", R"({"format": "dressform-calibration", "version": 1, "sensors": {"k1": {"ir": )" + camera +
-                                R"(, "color": )" + camera +
-                                R"(, "color_from_ir": [[1, 0, 0, 0.05], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}}})");
-  write("session.json", R"({"format": "dressform-session", "version": 1, "name": "fuzz", "sensors": ["k1"],
+  dressform::write_fuzzed(folder / "calibration.json",
+                          R"({"format": "dressform-calibration", "version": 1, "sensors": {"k1": {"ir": )" + camera +
+                              R"(, "color": )" + camera +
+                              R"(, "color_from_ir": [[1, 0, 0, 0.05], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}}})");
+  dressform::write_fuzzed(folder / "session.json",
+                          R"({"format": "dressform-session", "version": 1, "name": "fuzz", "sensors": ["k1"],
     "shots": {"naked": [], "dressed": []}, "scans": {}})");
   return folder;
 }

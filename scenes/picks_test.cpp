@@ -153,6 +153,30 @@ TEST_F(PicksOfSession, ReadsMasksWhateverTheyCallInside) {
   EXPECT_EQ(cv::norm(read().regions.at("smooth_bottom_k1"), mask * 255, cv::NORM_INF), 0);
 }
 
+// A region whose file cannot be written leaves no half of the others behind.
+TEST_F(PicksOfSession, NothingIsHalfWritten) {
+  Picks picks;
+  picks.points["rim_top_neck"] = {{"model", {{0, 1.4, 0}, {0.1, 1.4, 0}, {0.1, 1.4, 0.1}}}};
+  picks.regions["no_such_folder/region_top_k1"] = cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
+  const auto before = std::distance(fs::directory_iterator(session_), {});
+  EXPECT_ANY_THROW(write_picks(session_, picks));
+  EXPECT_EQ(std::distance(fs::directory_iterator(session_), {}), before);
+}
+
+TEST(PickedRegion, IsAsLargeAsItsImageOrNone) {
+  Picks picks;
+  picks.regions["region_top_k1"] = cv::Mat(6, 8, CV_8UC1, cv::Scalar(255));
+  EXPECT_EQ(cv::countNonZero(picked_region(picks, "region_top_k1", {8, 6})), 48);
+  EXPECT_TRUE(picked_region(picks, "region_bottom_k1", {8, 6}).empty());
+  try {
+    picked_region(picks, "region_top_k1", {6, 8});
+    ADD_FAILURE() << "a region of another size was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("picks: region_top_k1"));
+    EXPECT_THAT(error.what(), HasSubstr("is 8 x 6; expected the colour image's size, 6 x 8"));
+  }
+}
+
 TEST_F(PicksOfSession, PicksChangeNothingElse) {
   const std::string without = session_content_hash(session_);
   put("model/rim_top_neck.txt", kTriangle);
@@ -174,6 +198,9 @@ TEST_F(PicksOfSession, WhatCannotBeMeantIsNamed) {
       {"model/rim_top_neck.pp", "<Other/>", "rim_top_neck.pp:1", "expected PickedPoints"},
       {"model/rim_top_neck.pp", pick_points(""), "rim_top_neck.pp", "found 0 points; expected 3"},
       {"model/rim_top_neck.pp", pick_points("<point x=\"1\" y=\"2\"/>\n"), "rim_top_neck.pp:9", "without z"},
+      {"model/rim_top_neck.pp",
+       pick_points("<point x=\"1\" y=\"1\" z=\"0\"/>\n\n<point active=\"0\"/>\n<point x=\"1\" y=\"2\"/>\n"),
+       "rim_top_neck.pp:12", "without z"},
       {"model/rim_top_neck.pp", pick_points("<point x=\"1\" y=\"nan\" z=\"0\"/>\n"), "rim_top_neck.pp:9",
        "y = \"nan\""},
       {"model/rim_top_neck.pp", pick_points("<point x=\"1,5\" y=\"1\" z=\"0\"/>\n"), "rim_top_neck.pp:9", "\"1,5\""},

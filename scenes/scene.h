@@ -143,7 +143,8 @@ struct Scene {
 // column for syntax, unknown keys, wrong types and ranges.
 Scene read_scene(const std::filesystem::path& file);
 
-// The scene with all images resampled by `scale` (0 < scale <= 1), for quick runs.
+// The scene with all images resampled by `scale` (0 < scale <= 1), for quick runs; walks of more than 60 frames lose
+// frames by the same part, down to 60.
 Scene scaled(const Scene& scene, double scale);
 
 }  // namespace dressform

@@ -1,10 +1,10 @@
-#include "scenes/scene.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <fstream>
+
+#include "scenes/scene_parts.h"
 
 namespace dressform {
 namespace {
@@ -212,6 +212,30 @@ TEST_F(SceneFile, MatrixThatIsNoRotation) {
   EXPECT_THAT(error_of(text("[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]")), HasSubstr("is no rotation"));
   EXPECT_THAT(error_of(text("[[1, 0], [0, 1], [0, 0]]")), HasSubstr("found 2 elements; expected 3"));
   EXPECT_EQ(error_of(text("[[1, 0.0004, 0], [-0.0004, 1, 0], [0, 0, 1]]")), "no error");
+}
+
+// A stored capture is known by the text: a file that it left out would give a stale one.
+TEST_F(SceneFile, ARigOfSeveralFilesStandsInTheTextWhole) {
+  const Scene scene = read(base() + "[[garment]]\nkind = \"shirt\"\n");
+  const auto text_with = [&](const std::string& distance) {
+    write("inner.toml", "file = \"" + (kLibrary / "rigs/thesis.toml").string() + "\"\n# at " + distance + "\n");
+    write("outer.toml", "file = \"inner.toml\"\n");
+    const Scene changed = with_rig(scene, folder_ / "outer.toml");
+    EXPECT_EQ(changed.rig.size(), scene.rig.size());
+    return changed.toml;
+  };
+  const std::string near = text_with("2 m"), far = text_with("3 m");
+  EXPECT_NE(near, far);
+  EXPECT_THAT(near, HasSubstr("# --- instead of its rig\n"));
+  EXPECT_THAT(near, HasSubstr("# --- inner.toml\n"));
+  EXPECT_EQ(with_rig(scene, folder_ / "outer.toml").toml, far);
+}
+
+TEST_F(SceneFile, SensorsAreNotNamedLikeFramesOfPicks) {
+  write("rig.toml", "[[sensor]]\nname = \"user\"\n");
+  const std::string scan = "scan = \"" + (kLibrary / "scans/handheld.toml").string() + "\"\n";
+  EXPECT_THAT(error_of("rig = \"rig.toml\"\n" + scan + "[[garment]]\nkind = \"shirt\"\n"),
+              HasSubstr("rig.toml:2:8: sensor.name: found \"user\", which names a frame of picks"));
 }
 
 TEST(Scaled, ShrinksEveryCamera) {

@@ -45,7 +45,6 @@ std::string scale_guess(double middle_m, double per_m) {
 }  // namespace
 
 void DepthTally::add(const cv::Mat& depth_mm) {
-  largest_mm_ = std::max(largest_mm_, largest(depth_mm));
   const auto total = static_cast<long>(depth_mm.total());
   const cv::Mat dense = depth_mm.isContinuous() ? depth_mm : depth_mm.clone();
   const auto* values = dense.ptr<std::uint16_t>();
@@ -60,7 +59,6 @@ void DepthTally::add(const cv::Mat& depth_mm) {
 void DepthTally::add(const DepthTally& other) {
   sampled_ += other.sampled_;
   valid_ += other.valid_;
-  largest_mm_ = std::max(largest_mm_, other.largest_mm_);
   for (int i = 0; i < kBins; ++i) bins_[i] += other.bins_[i];
 }
 

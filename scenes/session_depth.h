@@ -8,7 +8,7 @@
 namespace dressform {
 
 // What the depth images of one shot or scan hold, to tell whether they can be what they are said to be. Images are
-// uint16, millimetres, 0 = none. A sample of every image's pixels is counted, the largest value over all of them.
+// uint16, millimetres, 0 = none. A sample of every image's pixels is counted.
 class DepthTally {
  public:
   void add(const cv::Mat& depth_mm);
@@ -16,14 +16,12 @@ class DepthTally {
 
   long sampled() const { return sampled_; }
   long valid() const { return valid_; }
-  int largest_mm() const { return largest_mm_; }
   // Depth that this part of the sampled valid pixels does not exceed, metres, to 16 mm; 0 without any.
   double quantile_m(double part) const;
 
  private:
   static constexpr int kShift = 4, kBins = 65536 >> kShift;
   long sampled_ = 0, valid_ = 0;
-  int largest_mm_ = 0;
   std::array<std::uint32_t, kBins> bins_{};
 };
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "scenes/length_units.h"
+
 namespace dressform {
 namespace {
 
@@ -149,13 +151,12 @@ std::optional<FieldProblem> misplaced(const std::string& sensor, const Isometry3
 }  // namespace
 
 std::string unit_guess(double found, double usual_least_m, double usual_most_m) {
-  struct Unit {
-    const char* name;
-    double in_metre;
-  };
-  for (const Unit& unit : {Unit{"millimetres", 1000}, {"centimetres", 100}, {"inches", 39.37}, {"decimetres", 10}})
-    if (found / unit.in_metre >= usual_least_m && found / unit.in_metre <= usual_most_m)
-      return fmt::format(" (looks like {}: {:.4g} m would be usual)", unit.name, found / unit.in_metre);
+  for (const char* name : {"mm", "cm", "inch", "dm"}) {  // what people measure in comes first
+    const LengthUnit& unit = length_unit(name);
+    const double meant_m = found * unit.metres;
+    if (meant_m >= usual_least_m && meant_m <= usual_most_m)
+      return fmt::format(" (looks like {}: {:.4g} m would be usual)", unit.plural, meant_m);
+  }
   return {};
 }
 

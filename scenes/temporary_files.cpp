@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <random>
 
 namespace dressform {
 namespace {
@@ -20,7 +21,8 @@ long writer_of(const std::string& name) {
 }  // namespace
 
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
-  static std::atomic<unsigned> serial{0};  // two threads may write beside one another
+  // Two threads may write beside one another, and on a shared folder two machines with processes of one number.
+  static std::atomic<unsigned> serial{std::random_device{}()};
   std::filesystem::path temporary = path;
   temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
   return temporary;

@@ -1,54 +1,20 @@
 #include "scenes/toml_section.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <sstream>
+
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
 
 constexpr double kRoundedRotation = 5e-3;  // four decimals of the thesis's tables leave 2e-4
 
-std::string type_name(const toml::node& node) {
-  std::ostringstream text;
-  text << node.type();
-  return text.str();
-}
-
-[[noreturn]] void wrong_type(const toml::node& node, const std::string& name, const std::string& expected) {
-  throw InputError(where_of(node), name + ": found " + type_name(node) + "; expected " + expected);
-}
-
-double number(const toml::node& node, const std::string& name) {
-  if (node.is_integer()) return static_cast<double>(node.as_integer()->get());
-  if (!node.is_floating_point()) wrong_type(node, name, "a number");
-  return node.as_floating_point()->get();
-}
-
-std::string words(const std::vector<std::string>& list) {
-  std::string text;
-  for (const auto& word : list) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "none" : text;
-}
-
-// Negated so that NaN fails as well.
-template <class T>
-void check_range(const toml::node& node, const std::string& name, T value, T minimum, T maximum, const char* unit) {
-  if (value >= minimum && value <= maximum) return;
-  throw InputError(
-      where_of(node),
-      name + ": found " + to_text(FieldValue(value)) + "; expected " + to_text(FieldValue(minimum)) + " to " +
-          to_text(FieldValue(maximum)) + (*unit ? " " : "") + unit +
-          likely_unit(static_cast<double>(value), static_cast<double>(minimum), static_cast<double>(maximum), unit));
-}
-
 const toml::array& array_of(const toml::node& node, const std::string& name, int size) {
   const auto* array = node.as_array();
   const std::string expected = "an array of " + std::to_string(size);
-  if (!array) wrong_type(node, name, expected);
+  if (!array) wrong_value(node, name, expected);
   if (static_cast<int>(array->size()) != size)
     throw InputError(where_of(node),
                      name + ": found " + std::to_string(array->size()) + " elements; expected " + std::to_string(size));
@@ -65,12 +31,6 @@ std::string read_text(const std::filesystem::path& path, const std::string& refe
 }
 
 }  // namespace
-
-std::string where_of(const toml::node& node) {
-  const auto& source = node.source();
-  return (source.path ? *source.path : std::string("scene")) + ":" + std::to_string(source.begin.line) + ":" +
-         std::to_string(source.begin.column);
-}
 
 std::filesystem::path resolved_path(const toml::node& node, const std::string& text) {
   const std::filesystem::path folder = std::filesystem::path(*node.source().path).parent_path();
@@ -106,7 +66,7 @@ TomlSection::TomlSection(TomlFiles& files, const toml::node& node, std::string n
     return;
   }
   const auto* text = node.as_string();
-  if (!text) wrong_type(node, name_, "a table or the name of a TOML file");
+  if (!text) wrong_value(node, name_, "a table or the name of a TOML file");
   add_layer(files_.open(resolved_path(node, text->get()), text->get(), where_of(node)));
 }
 
@@ -116,9 +76,11 @@ void TomlSection::add_layer(const toml::table& table) {
   const auto* file = table.get("file");
   if (!file || name_.empty()) return;  // the scene itself is not part of another file
   const auto* text = file->as_string();
-  if (!text) wrong_type(*file, name_ + ".file", "the name of a TOML file");
+  if (!text) wrong_value(*file, name_ + ".file", "the name of a TOML file");
   add_layer(files_.open(resolved_path(*file, text->get()), text->get(), where_of(*file)));
 }
+
+std::string TomlSection::full_name(const std::string& name) const { return name_.empty() ? name : name_ + "." + name; }
 
 const toml::node* TomlSection::find(const char* name) {
   if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
@@ -129,40 +91,20 @@ const toml::node* TomlSection::find(const char* name) {
 
 void TomlSection::operator()(const char* name, double& value, double minimum, double maximum, const char* unit,
                              const char*) {
-  const auto* node = find(name);
-  if (!node) return;
-  const double found = number(*node, name_ + "." + name);
-  check_range(*node, name_ + "." + name, found, minimum, maximum, unit);
-  value = found;
+  if (const auto* node = find(name)) value = number_in(*node, full_name(name), minimum, maximum, unit);
 }
 
 void TomlSection::operator()(const char* name, int& value, int minimum, int maximum, const char* unit, const char*) {
-  const auto* node = find(name);
-  if (!node) return;
-  const std::string full = name_ + "." + name;
-  if (!node->is_integer()) wrong_type(*node, full, "a whole number");
-  // Clamped first, so that a number beyond int is out of range and not wrapped.
-  const auto whole = std::clamp<std::int64_t>(node->as_integer()->get(), INT32_MIN, INT32_MAX);
-  check_range(*node, full, static_cast<int>(whole), minimum, maximum, unit);
-  value = static_cast<int>(whole);
+  if (const auto* node = find(name)) value = whole_number_in(*node, full_name(name), minimum, maximum, unit);
 }
 
 void TomlSection::operator()(const char* name, bool& value, const char*) {
-  const auto* node = find(name);
-  if (!node) return;
-  if (!node->is_boolean()) wrong_type(*node, name_ + "." + name, "true or false");
-  value = node->as_boolean()->get();
+  if (const auto* node = find(name)) value = flag_in(*node, full_name(name));
 }
 
 void TomlSection::operator()(const char* name, std::string& value, const std::vector<std::string>& choices,
                              const char*) {
-  const auto* node = find(name);
-  if (!node) return;
-  if (!node->is_string()) wrong_type(*node, name_ + "." + name, "text");
-  const std::string found = node->as_string()->get();
-  if (!choices.empty() && std::find(choices.begin(), choices.end(), found) == choices.end())
-    fail(name, "found \"" + found + "\"; expected one of " + words(choices));
-  value = found;
+  if (const auto* node = find(name)) value = word_in(*node, full_name(name), choices);
 }
 
 void TomlSection::path(const char* name, std::filesystem::path& value) {
@@ -175,10 +117,10 @@ void TomlSection::texts(const char* name, std::vector<std::string>& value) {
   const auto* node = find(name);
   if (!node) return;
   const auto* array = node->as_array();
-  if (!array) wrong_type(*node, name_ + "." + name, "an array of text");
+  if (!array) wrong_value(*node, full_name(name), "an array of text");
   value.clear();
   for (const auto& element : *array) {
-    if (!element.is_string()) wrong_type(element, name_ + "." + name, "text");
+    if (!element.is_string()) wrong_value(element, full_name(name), "text");
     value.push_back(element.as_string()->get());
   }
 }
@@ -187,12 +129,11 @@ void TomlSection::vector(const char* name, Eigen::VectorXd& value, int size, dou
                          const char* unit) {
   const auto* node = find(name);
   if (!node) return;
-  const std::string full = name_ + "." + name;
+  const std::string full = full_name(name);
   const auto& array = array_of(*node, full, size);
   value.resize(size);
   for (int i = 0; i < size; ++i) {
-    value[i] = number(array[i], full);
-    check_range(array[i], full, value[i], minimum, maximum, unit);
+    value[i] = number_in(array[i], full, minimum, maximum, unit);
   }
 }
 
@@ -205,20 +146,18 @@ void TomlSection::vector3(const char* name, Vector3d& value, double minimum, dou
 void TomlSection::rotation(const char* name, Eigen::Matrix3d& value) {
   const auto* node = find(name);
   if (!node) return;
-  const std::string full = name_ + "." + name;
+  const std::string full = full_name(name);
   Eigen::Matrix3d written;
   const auto& rows = array_of(*node, full, 3);
   for (int row = 0; row < 3; ++row) {
     const auto& numbers = array_of(rows[row], full, 3);
     for (int column = 0; column < 3; ++column) {
-      written(row, column) = number(numbers[column], full);
-      check_range(numbers[column], full, written(row, column), -1.01, 1.01, "");
+      written(row, column) = number_in(numbers[column], full, -1.01, 1.01, "");
     }
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(written, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
+  const Eigen::Matrix3d nearest = nearest_rotation(written);  // far off, for a mirror
   const double off = (nearest - written).cwiseAbs().maxCoeff();
-  if (nearest.determinant() < 0 || !(off <= kRoundedRotation))
+  if (!(off <= kRoundedRotation))
     fail(name, "found a matrix that is no rotation; expected one to within " + to_text(FieldValue(kRoundedRotation)));
   value = nearest;
 }
@@ -235,7 +174,7 @@ void TomlSection::children(const char* name, const std::function<void(TomlSectio
   const auto* node = find(name);
   if (!node) return;
   const auto* array = node->as_array();
-  if (!array) wrong_type(*node, name_.empty() ? name : name_ + "." + name, std::string("[[") + name + "]] tables");
+  if (!array) wrong_value(*node, full_name(name), std::string("[[") + name + "]] tables");
   for (const auto& element : *array) {
     TomlSection section(files_, element, name);
     read(section);
@@ -259,7 +198,7 @@ FieldValues TomlSection::values(const char* name) {
         else if (node.is_string())
           result[text] = node.as_string()->get();
         else
-          wrong_type(node, text, "a number, text, true or false");
+          wrong_value(node, text, "a number, text, true or false");
       }
   });
   return result;
@@ -275,7 +214,7 @@ void TomlSection::finish() const {
       const auto file = where_of(node).substr(0, where_of(node).find_last_of(':'));
       throw InputError(
           file.substr(0, file.find_last_of(':')) + ":" + std::to_string(at.line) + ":" + std::to_string(at.column),
-          "unknown key \"" + text + "\"" + (name_.empty() ? "" : " in " + name_) + "; known are " + words(known_));
+          "unknown key \"" + text + "\"" + (name_.empty() ? "" : " in " + name_) + "; known are " + listed(known_));
     }
 }
 
@@ -283,8 +222,7 @@ void TomlSection::fail(const char* name, const std::string& problem) const {
   const toml::node* node = layers_.front();
   for (auto layer = layers_.rbegin(); layer != layers_.rend(); ++layer)
     if (const auto* found = (*layer)->get(name)) node = found;
-  const std::string full = (name_.empty() || !*name) ? name_ + name : name_ + "." + name;
-  throw InputError(where_of(*node), full + ": " + problem);
+  throw InputError(where_of(*node), (*name ? full_name(name) : name_) + ": " + problem);
 }
 
 }  // namespace dressform

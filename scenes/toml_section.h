@@ -1,6 +1,4 @@
 #pragma once
-#include <toml++/toml.h>
-
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -8,8 +6,7 @@
 #include <vector>
 
 #include "scenes/camera.h"
-#include "scenes/error.h"
-#include "scenes/fields.h"
+#include "scenes/toml_value.h"
 
 namespace dressform {
 
@@ -29,8 +26,6 @@ class TomlFiles {
   std::vector<File> files_;
 };
 
-// "file:line:column" of a node.
-std::string where_of(const toml::node& node);
 // A path written in a TOML file, taken from that file's folder. Throws InputError when there is no such file.
 std::filesystem::path resolved_path(const toml::node& node, const std::string& text);
 
@@ -68,6 +63,7 @@ class TomlSection {
   [[noreturn]] void fail(const char* name, const std::string& problem) const;
 
  private:
+  std::string full_name(const std::string& name) const;  // with the section's before it
   void add_layer(const toml::table& table);
   TomlFiles& files_;
   std::string name_;

@@ -34,4 +34,16 @@ Vector3d closest_barycentric(const Vector3d& p, const Vector3d& a, const Vector3
   return sum > 0 ? Vector3d(va / sum, vb / sum, vc / sum) : Vector3d(1, 0, 0);
 }
 
+double triangle_area_m2(const Mesh& mesh, const Vector3i& triangle) {
+  const Vector3d& a = mesh.vertices[triangle[0]];
+  return 0.5 * (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).norm();
+}
+
+std::vector<double> triangle_areas_m2(const Mesh& mesh) {
+  std::vector<double> areas;
+  areas.reserve(mesh.triangles.size());
+  for (const Vector3i& triangle : mesh.triangles) areas.push_back(triangle_area_m2(mesh, triangle));
+  return areas;
+}
+
 }  // namespace dressform

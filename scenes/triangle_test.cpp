@@ -20,5 +20,11 @@ TEST(ClosestBarycentric, OfATriangleThatIsAPointOrALine) {
   EXPECT_LT((w[0] * a + w[1] * b + w[2] * a - Vector3d(1.25, 2, 3)).norm(), 1e-12);
 }
 
+TEST(TriangleArea, HalfOfASquareAndNothingOfALine) {
+  const Mesh mesh{{{1, 1, 1}, {3, 1, 1}, {1, 1, 3}, {5, 1, 1}}, {{0, 1, 2}, {0, 1, 3}}};
+  EXPECT_EQ(triangle_area_m2(mesh, mesh.triangles[0]), 2);
+  EXPECT_EQ(triangle_areas_m2(mesh), (std::vector<double>{2, 0}));
+}
+
 }  // namespace
 }  // namespace dressform

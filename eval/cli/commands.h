@@ -19,4 +19,10 @@ struct RegisteredCommand {
 // All commands in the order of --help.
 std::vector<AddCommand> registered_commands();
 
+// The same for a subcommand of `dressform study`, which is given that command to add itself to.
+struct RegisteredStudyCommand {
+  RegisteredStudyCommand(int place, AddCommand add);
+};
+std::vector<AddCommand> registered_study_commands();
+
 }  // namespace dressform

@@ -8,8 +8,9 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
+#include "eval/cli/option_fields.h"
+#include "eval/run/scene_run.h"
 #include "pipeline/run/preset.h"
-#include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
 namespace {
@@ -51,27 +52,8 @@ void add_preset(CLI::App& command, CommonOptions& options) {
                      "see dressform variants --presets");
 }
 
-namespace {
-
-// Fields as options: --name, with dashes.
-struct OptionFields {
-  CLI::App& command;
-  void operator()(const char* name, std::string& value, const std::vector<std::string>& choices, const char* doc) {
-    command.add_option(option(name), value, doc)->check(CLI::IsMember(choices));
-  }
-  void operator()(const char* name, double& value, double minimum, double maximum, const char*, const char* doc) {
-    command.add_option(option(name), value, doc)->check(CLI::Range(minimum, maximum));
-  }
-  static std::string option(std::string name) {
-    std::replace(name.begin(), name.end(), '_', '-');
-    return "--" + name;
-  }
-};
-
-}  // namespace
-
 void add_mesh_frame(CLI::App& command, MeshFrame& frame) {
-  OptionFields options{command};
+  OptionFields options(command);
   fields(options, frame);
 }
 
@@ -91,13 +73,10 @@ Choices parse_choices(const CommonOptions& options) {
   }
   for (const auto& text : options.variants) {
     const auto [stage, name] = split("--variant", text, '=', "stage=name, e.g. registration=point_to_plane");
-    if (stage == "sensor") {
+    if (stage == "sensor")
       choices.sensor.variant = name;
-      continue;
-    }
-    std::string& chosen = choices.reconstruction.variants[stage];
-    if (chosen != name) choices.reconstruction.values.erase(stage);
-    chosen = name;
+    else
+      choose_variant(choices.reconstruction, stage, name);
   }
   for (const auto& text : options.values) {
     const std::string form = "stage.parameter=value, e.g. fuse.voxel_m=0.005";
@@ -110,12 +89,7 @@ Choices parse_choices(const CommonOptions& options) {
 
 Scene chosen_scene(const std::filesystem::path& file, const CommonOptions& options) {
   Scene scene = scaled(read_scene(file), options.scale);
-  const VariantChoice choice = parse_choices(options).sensor;
-  if (!choice.variant.empty() && choice.variant != scene.sensor_model.variant)
-    scene.sensor_model = {choice.variant, {}};
-  for (const auto& [name, value] : choice.values) scene.sensor_model.values[name] = value;
-  auto& model = scene.sensor_model;
-  model.values = SensorModel::at(model.variant).complete(model.values);
+  choose_sensor(scene, parse_choices(options).sensor);
   return scene;
 }
 

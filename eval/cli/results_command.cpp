@@ -5,6 +5,7 @@
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
+#include "eval/report/csv.h"
 #include "eval/studies/results_index.h"
 
 namespace dressform {
@@ -15,13 +16,6 @@ struct ResultsOptions {
   std::string sql, history, metric;
   bool csv = false;
 };
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string result = "\"";
-  for (const char letter : text) result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return result + "\"";
-}
 
 void print_csv(const ResultsIndex::Rows& rows) {
   const auto print_line = [](const std::vector<std::string>& fields) {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "eval/cli/commands.h"
+#include "eval/cli/option_fields.h"
 #include "eval/cli/options.h"
 #include "eval/studies/draw/draw_scene.h"
 #include "scenes/file_bytes.h"
@@ -15,22 +16,6 @@ struct SceneDrawOptions {
   Seed seed = 1;
   int count = 1;
   std::filesystem::path output;
-};
-
-// Fields of the draw as options: --sensor-model of sensor_model.
-struct DrawFlags {
-  CLI::App& command;
-  static std::string flag(std::string name) {
-    std::replace(name.begin(), name.end(), '_', '-');
-    return "--" + name;
-  }
-  void operator()(const char* name, std::string& value, const std::vector<std::string>& choices, const char* doc) {
-    auto* option = command.add_option(flag(name), value, doc);
-    if (!choices.empty()) option->check(CLI::IsMember(choices));
-  }
-  void operator()(const char* name, int& value, int minimum, int maximum, const char*, const char* doc) {
-    command.add_option(flag(name), value, doc)->check(CLI::Range(minimum, maximum));
-  }
 };
 
 int draw_scenes(const SceneDrawOptions& options) {
@@ -54,8 +39,8 @@ Command add_scene_command(CLI::App& app) {
   draw->add_option("--seed", options->seed, "number of the scene (default 1)");
   draw->add_option("-o,--output", options->output, "the scene file; with --count a folder for the files")->required();
   draw->add_option("--count", options->count, "how many, from --seed on (default 1)")->check(CLI::Range(1, 100000));
-  DrawFlags flags{*draw};
-  fields(flags, options->draw);
+  OptionFields draw_options(*draw);
+  fields(draw_options, options->draw);
   std::string strata;
   for (const auto& stratum : known_strata()) strata += fmt::format("\n  {:<14} {}", stratum.name, stratum.meaning);
   draw->add_option("--stratum", options->draw.strata, "the scene has this, see below (repeatable)")

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
 #include "eval/report/score_table.h"
+#include "eval/run/run_facts.h"
 #include "eval/score/evaluate.h"
 #include "eval/score/mesh_pair.h"
 #include "pipeline/run/artifact_store.h"
@@ -24,15 +23,6 @@ struct ScoreOptions : CommonOptions {
   MeshFrame frame;  // of `mesh`
 };
 
-// The names and the session that a run folder's run.json records.
-nlohmann::json run_facts(const fs::path& run) {
-  std::ifstream in(run / "run.json");
-  const nlohmann::json facts = in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json::object();
-  if (facts.is_discarded() || !facts.is_object())
-    throw InputError((run / "run.json").string(), "is damaged; expected the JSON that a run wrote");
-  return facts;
-}
-
 void write_scores(const Scores& scores, const fs::path& output) {
   write_file_atomically(output, scores_to_json(scores));
   fs::path csv = output;
@@ -41,26 +31,20 @@ void write_scores(const Scores& scores, const fs::path& output) {
   fmt::print("scores: {}\n", output.string());
 }
 
-std::optional<double> scale_of(const nlohmann::json& facts) {
-  if (!facts.contains("scale") || !facts["scale"].is_number()) return {};
-  return facts["scale"].get<double>();
-}
-
 int score_run(const ScoreOptions& options) {
   if (!fs::is_directory(options.run / "out"))
     throw InputError(options.run.string(), "has no folder out/; expected a run folder");
-  const auto facts = run_facts(options.run);
-  fs::path session = options.session;
-  if (session.empty() && facts.contains("session")) session = facts["session"].value("path", std::string());
+  const RunFacts facts = read_run_facts(options.run);
+  const fs::path session = options.session.empty() ? facts.session : options.session;
   if (session.empty())
     throw InputError("--session", "missing, and run.json names none; expected a session with ground truth");
   if (!ground_truth_exists(session))
     throw InputError((session / "truth").string(), "no ground truth; expected a synthetic session");
   Scores scores = evaluate(read_foreign_outputs(options.run), read_ground_truth(session));
-  scores.scene = facts.value("scene", session.filename().string());
-  scores.variant = facts.value("variant", std::string("default"));
-  scores.seed = facts.value("seed", Seed{0});
-  fmt::print("{}\n", score_table_text(scores, scale_of(facts)));
+  scores.scene = facts.scene.value_or(session.filename().string());
+  scores.variant = facts.variant.value_or("default");
+  scores.seed = facts.seed.value_or(0);
+  fmt::print("{}\n", score_table_text(scores, facts.scale));
   write_scores(scores, options.output.empty() ? options.run / "scores.json" : options.output);
   return kSuccess;
 }

@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <set>
+#include <thread>
 
 #include "eval/cli/commands.h"
 #include "eval/cli/options.h"
 #include "eval/cli/progress.h"
+#include "eval/cli/study_workers.h"
 #include "eval/studies/make_cell.h"
 #include "eval/studies/merge.h"
 #include "eval/studies/study_report.h"
@@ -20,6 +22,7 @@ struct StudyOptions : CommonOptions {
   std::vector<std::string> cells;
   std::vector<fs::path> others;
   std::string part;
+  int workers = 0;
   bool retry_failed = false, renew = false, keep = false, missing = false, by_scene = false, without_seconds = false;
 };
 
@@ -74,20 +77,56 @@ fs::path planned_folder(const StudyOptions& options) {
   return options.output;
 }
 
+int core_count(int threads) {
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Processes that share the scenes. Cells that are asked for one by one, or made once more, are one process's work:
+// nobody could tell what another one has made again already.
+int workers_of(const StudyOptions& options, const StudyPlan& plan) {
+  if (options.workers == 1 || !options.cells.empty() || options.retry_failed || options.renew) return 1;
+  std::set<std::pair<std::size_t, Seed>> left;
+  for (const auto& cell : cells_of(plan, options.output))
+    if (!fs::exists(cell_file(options.output, cell.id))) left.insert({cell.scene, cell.seed});
+  if (options.workers > 0) return std::min(options.workers, std::max(1, static_cast<int>(left.size())));
+  return worth_while_workers(core_count(options.threads), left.size());
+}
+
+std::vector<std::string> worker_arguments(const StudyOptions& options, int threads) {
+  std::vector<std::string> arguments{"study",
+                                     "run",
+                                     fs::absolute(options.output).string(),
+                                     "-q",
+                                     "--workers",
+                                     "1",
+                                     "--threads",
+                                     std::to_string(threads),
+                                     "--store",
+                                     fs::absolute(store_folder(options)).string()};
+  if (options.keep) arguments.push_back("--keep");
+  return arguments;
+}
+
 int run_study(StudyOptions options) {
   const fs::path folder = options.output = planned_folder(options);
   const StudyPlan plan = read_plan(folder);
   if (!options.part.empty() && !options.cells.empty())
     throw InputError("--part " + options.part, "found it beside --cell; expected one of the two");
   if (!options.part.empty()) options.cells = cells_of_part(plan, folder, options.part);
-  const ThreadLimit threads(options.threads);
+  const int workers = workers_of(options, plan);
+  const ThreadLimit threads(std::max(1, core_count(options.threads) / workers));
   Progress progress(options.quiet);
   RunCellsRequest request{folder,        options.cells, program_signature(), options.retry_failed,
                           options.renew, options.keep};
   if (!options.part.empty() && options.cells.empty()) return kSuccess;  // more shares than scenes
+  request.durable = true;
+  request.workers = workers;
+  const StudyWorkers others(workers - 1, worker_arguments(options, threads.count()), folder);
   const auto summary = run_cells(plan, request, pipeline_cells(folder, store_folder(options), threads.count()),
                                  cell_progress(plan, progress));
-  if (summary.made == 0)
+  if (workers > 1)
+    fmt::print("all cells are there; {} were before\n", summary.present);
+  else if (summary.made == 0)
     fmt::print("nothing to do: {} cells are there\n", summary.present);
   else
     fmt::print("{} cells made, {} of them failed; {} were there\n", summary.made, summary.failed, summary.present);
@@ -145,10 +184,9 @@ int show_status(const StudyOptions& options) {
 }
 
 int report_study(const StudyOptions& options) {
-  const auto files = write_study_report(options.study, !options.without_seconds);
-  const StudyReport report = study_report(read_results(options.study), !options.without_seconds);
+  const WrittenReport report = write_study_report(options.study, !options.without_seconds);
   fmt::print("{}\n", report.headline);
-  for (const auto& file : files) fmt::print("{}\n", file.string());
+  for (const auto& file : report.files) fmt::print("{}\n", file.string());
   return kSuccess;
 }
 
@@ -165,9 +203,12 @@ void add_run_options(CLI::App& run, StudyOptions& options) {
   run.add_option("-o,--output", options.output, "for a study file: the folder that it is planned into");
   run.add_option("--cell", options.cells, "only this cell (repeatable)")->allow_extra_args(false);
   run.add_option("--part", options.part, "K/N: only the K-th of N shares of the scenes");
+  run.add_option("--workers", options.workers,
+                 "processes that share the scenes, and --threads among them; default: one a core, as memory allows")
+      ->check(CLI::Range(1, 1024));
   run.add_flag("--retry-failed", options.retry_failed, "make failed cells once more");
   run.add_flag("--renew", options.renew, "make cells of other programs anew; otherwise they are an error");
-  run.add_flag("--keep", options.keep, "keep each run's folder (out/, scores) below work/");
+  run.add_flag("--keep", options.keep, "keep each cell's run (out/, scores) in work/<cell id>");
   add_threads(run, options);
 }
 
@@ -206,9 +247,16 @@ Command add_study_command(CLI::App& app) {
       "  dressform study run studies/variants\n  dressform study report studies/variants\n"
       "  dressform study cells studies/variants --by-scene | parallel -j 4\n"
       "A study file is described in eval/studies/README.md.");
-  return [options, actions] {
+  auto others = std::make_shared<std::vector<std::pair<CLI::App*, Command>>>();  // of files of their own
+  for (const AddCommand add_other : registered_study_commands()) {
+    Command other = add_other(*command);
+    others->push_back({command->get_subcommands({}).back(), std::move(other)});
+  }
+  return [options, actions, others] {
     for (const auto& [sub, action] : *actions)
       if (sub->parsed()) return action(*options);
+    for (const auto& [sub, other] : *others)
+      if (sub->parsed()) return other();
     return static_cast<int>(kBadInput);
   };
 }

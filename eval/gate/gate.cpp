@@ -4,69 +4,92 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
+#include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "eval/score/targets.h"
-#include "scenes/error.h"
 
 namespace dressform {
 namespace {
 
-// Mean absolute difference in 8-bit levels that images may show: anti-aliased edges and dithering of texture
-// filtering differ between instruction sets, surfaces do not.
-constexpr double kImageTolerance = 1.0;
+constexpr double kNoNumber = std::numeric_limits<double>::infinity();  // how far off is what cannot be counted
 
-bool within(const GoldenScore& golden, const ScoreRow& now) {
-  if (golden.row.status != now.status) return false;
-  if (!std::isfinite(golden.row.value) || !std::isfinite(now.value))
-    return std::isfinite(golden.row.value) == std::isfinite(now.value);
-  return std::abs(golden.row.value - now.value) <= golden.tolerance;
+struct Tolerance {
+  double value = 0;
+  bool measured = false;
+};
+
+Tolerance tolerance_of(const GoldenScore& golden, const MeasuredNuisance& nuisance) {
+  if (const auto measured = nuisance.tolerance(golden.row)) return {*measured, true};
+  return {golden.tolerance, false};
 }
 
-// Whether a number beyond tolerance changed for the better, by the direction that its metric declares.
-bool is_better(const GoldenScore& golden, const ScoreRow& now) {
-  if (now.status != "ok") return false;
-  if (golden.row.status == "failed") return true;
-  const Metric* metric = find_metric(now.stage, now.metric);
-  if (!metric || golden.row.status != "ok") return false;
-  switch (metric->better) {
-    case Better::lower:
-      return now.value < golden.row.value;
-    case Better::higher:
-      return now.value > golden.row.value;
-    case Better::near_zero:
-      return std::abs(now.value) < std::abs(golden.row.value);
-    case Better::neither:
-      break;
+double times_over(double distance, double tolerance) {
+  if (distance == 0) return 0;
+  return tolerance > 0 ? distance / tolerance : kNoNumber;
+}
+
+bool both_numbers(const ScoreRow& a, const ScoreRow& b) {
+  return a.status == b.status && std::isfinite(a.value) && std::isfinite(b.value);
+}
+
+std::string numbers_text(const GoldenScore& golden, const ScoreRow& now, const Tolerance& tolerance, double times) {
+  return fmt::format("reference {:.6g} ({}), new {:.6g} ({}), tolerance {:.3g} {} ({}){}", golden.row.value,
+                     golden.row.status, now.value, now.status, tolerance.value, now.unit,
+                     tolerance.measured ? "measured" : "declared, not measured",
+                     std::isfinite(times) && times > 0 ? fmt::format(", {:.1f} times over", times) : "");
+}
+
+// Steps that were accepted one by one: how far past what was accepted knowingly, in tolerances.
+double creep_times(const GoldenScore& golden, const ScoreRow& now, double tolerance) {
+  if (!both_numbers(golden.row, now) || !std::isfinite(golden.first)) return 0;
+  const double before = worsening(now, golden.first, golden.row.value), drift = worsening(now, golden.first, now.value);
+  const bool went_on = before > 0 && worsening(now, golden.row.value, now.value) > 0;
+  return went_on && tolerance > 0 ? (drift - golden.known_drift) / tolerance : 0;
+}
+
+GateItem compared_number(const GoldenScore& golden, const ScoreRow* now, const Tolerance& tolerance) {
+  GateItem item{golden.row.stage, golden.row.metric, ItemVerdict::same, "", 0};
+  if (!now) return {item.stage, item.name, ItemVerdict::gone, "no longer measured", kNoNumber};
+  if (!both_numbers(golden.row, *now)) {
+    const bool same = golden.row.status == now->status && std::isfinite(golden.row.value) == std::isfinite(now->value);
+    if (same) return item;
+    item.verdict = golden.row.status == "failed" && now->status == "ok" ? ItemVerdict::better : ItemVerdict::worse;
+    item.times = kNoNumber;
+    item.message = numbers_text(golden, *now, tolerance, 0);
+    return item;
   }
-  return false;
+  const double distance = std::abs(now->value - golden.row.value), creep = creep_times(golden, *now, tolerance.value);
+  item.times = times_over(distance, tolerance.value);
+  item.message = distance == 0 ? "" : numbers_text(golden, *now, tolerance, item.times);
+  if (item.times > 1)
+    item.verdict = worsening(*now, golden.row.value, now->value) < 0 ? ItemVerdict::better : ItemVerdict::worse;
+  else if (distance > 0)
+    item.verdict = ItemVerdict::within;
+  if (item.verdict != ItemVerdict::worse && creep > kCreepTolerances) {
+    item.verdict = ItemVerdict::creep;
+    item.times = creep;
+    item.message =
+        fmt::format("was {:.6g} when first accepted, {:.6g} now: {:.1f} tolerances of {:.3g} {} in small steps",
+                    golden.first, now->value, creep, tolerance.value, now->unit);
+  }
+  return item;
 }
 
-double image_difference(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size() || a.type() != b.type()) return 255;
-  cv::Mat difference;
-  cv::absdiff(a, b, difference);
-  const cv::Scalar mean = cv::mean(difference);
-  return (mean[0] + mean[1] + mean[2]) / 3;
-}
-
-std::string name_of(const ScoreRow& row) { return row.stage + " " + row.metric; }
-
-void compare_scores(const GoldenCase& golden, const Scores& scores, GateResult& result) {
+void compare_scores(const GoldenCase& golden, const GoldenRun& run, const MeasuredNuisance& nuisance,
+                    GateResult& result) {
+  std::set<std::string> unmeasured;
   for (const auto& reference : golden.scores) {
+    const Tolerance tolerance = tolerance_of(reference, nuisance);
+    const Metric* metric = find_metric(reference.row.stage, reference.row.metric);
+    if (!tolerance.measured && metric && reference.row.status == "ok")
+      unmeasured.insert(reference.row.stage + " " + metric->name);
+    result.items.push_back(
+        compared_number(reference, run.scores.find(reference.row.stage, reference.row.metric), tolerance));
     ++result.compared;
-    const std::string what = name_of(reference.row);
-    const ScoreRow* now = scores.find(reference.row.stage, reference.row.metric);
-    if (!now) {
-      result.findings.push_back({what, "no longer measured"});
-    } else if (!within(reference, *now)) {
-      auto& place = is_better(reference, *now) ? result.better : result.findings;
-      place.push_back(
-          {what, fmt::format("reference {:.6g} ({}), new {:.6g} ({}), tolerance {:.3g} {}", reference.row.value,
-                             reference.row.status, now->value, now->status, reference.tolerance, now->unit)});
-    }
   }
+  result.unmeasured.assign(unmeasured.begin(), unmeasured.end());
 }
 
 void compare_targets(const GoldenCase& golden, const Scores& scores, GateResult& result) {
@@ -75,131 +98,162 @@ void compare_targets(const GoldenCase& golden, const Scores& scores, GateResult&
     const bool is_known = known != golden.known_misses.end();
     result.targets.push_back({each.name(), each.value_text(), each.metric->target_text(), each.metric->from_scale,
                               each.met, !each.met && is_known ? known->second : ""});
-    if (!each.met && !is_known)
-      result.findings.push_back({"target " + each.name(), fmt::format("newly missed: {}, target {}", each.value_text(),
-                                                                      each.metric->target_text())});
-    if (each.met && is_known)
-      result.better.push_back(
-          {"target " + each.name(), fmt::format("is met now: {}, target {}; known as missed: {}", each.value_text(),
-                                                each.metric->target_text(), known->second)});
+    GateItem item{each.row->stage, each.row->metric + " (target)", ItemVerdict::same, "", kNoNumber};
+    if (!each.met && !is_known) {
+      item.verdict = ItemVerdict::worse;
+      item.message = fmt::format("newly missed: {}, target {}", each.value_text(), each.metric->target_text());
+    } else if (each.met && is_known) {
+      item.verdict = ItemVerdict::better;
+      item.message = fmt::format("is met now: {}, target {}; known as missed: {}", each.value_text(),
+                                 each.metric->target_text(), known->second);
+    }
+    result.items.push_back(item);
   }
 }
 
-void compare_images(const GoldenCase& golden, const std::map<std::string, cv::Mat>& images, GateResult& result) {
+void compare_images(const GoldenCase& golden, const GoldenRun& run, const PictureTolerance& tolerance,
+                    GateResult& result) {
   for (const auto& [stem, reference] : golden.images) {
     ++result.compared;
-    const auto now = images.find(stem);
-    if (now == images.end()) {
-      result.findings.push_back({"image " + stem, "no longer made"});
+    const auto now = run.images.find(stem);
+    if (now == run.images.end()) {
+      result.items.push_back({"image", stem, ItemVerdict::gone, "no longer made", kNoNumber});
       continue;
     }
-    const double difference = image_difference(reference, now->second);
-    if (difference > kImageTolerance)
-      result.findings.push_back({"image " + stem, fmt::format("mean difference {:.2f} levels, tolerance {:.2f}",
-                                                              difference, kImageTolerance)});
+    const PictureDifference difference = picture_difference(reference, now->second);
+    const double times = tolerance.excess(difference);
+    result.items.push_back(
+        {"image", stem,
+         times == 0  ? ItemVerdict::same
+         : times > 1 ? ItemVerdict::worse
+                     : ItemVerdict::within,
+         times == 0
+             ? ""
+             : fmt::format("{}; tolerance {:.2f}, {:.2f}, {:.4f}, {:.4f} ({})", picture_text(difference),
+                           tolerance.mean_levels, tolerance.worst_tile_levels, tolerance.flip,
+                           tolerance.worst_tile_flip, tolerance.measured ? "measured" : "declared, not measured"),
+         times});
   }
 }
 
-const GoldenScore* find(const GoldenCase& golden, const ScoreRow& row) {
-  const auto found = std::find_if(golden.scores.begin(), golden.scores.end(), [&](const GoldenScore& each) {
+bool knows(const GoldenCase& golden, const ScoreRow& row) {
+  return std::any_of(golden.scores.begin(), golden.scores.end(), [&](const GoldenScore& each) {
     return each.row.stage == row.stage && each.row.metric == row.metric;
   });
-  return found == golden.scores.end() ? nullptr : &*found;
 }
 
-void find_unknown(const GoldenCase& golden, const Scores& scores, const std::map<std::string, cv::Mat>& images,
-                  GateResult& result) {
-  for (const auto& row : scores.rows)
-    if (!find(golden, row)) {
-      result.findings.push_back({name_of(row), "not in the reference: obsolete"});
-      result.verdict = GateVerdict::obsolete;
-    }
-  for (const auto& [stem, image] : images)
-    if (!golden.images.count(stem)) {
-      result.findings.push_back({"image " + stem, "not in the reference: obsolete"});
-      result.verdict = GateVerdict::obsolete;
-    }
+void find_unknown(const GoldenCase& golden, const GoldenRun& run, GateResult& result) {
+  for (const auto& row : run.scores.rows)
+    if (!knows(golden, row))
+      result.items.push_back(
+          {row.stage, row.metric, ItemVerdict::unknown, "not in the reference: obsolete", kNoNumber});
+  for (const auto& [stem, image] : run.images)
+    if (!golden.images.count(stem))
+      result.items.push_back({"image", stem, ItemVerdict::unknown, "not in the reference: obsolete", kNoNumber});
 }
 
-// The misses of a run, each with its reason.
-std::map<std::string, std::string> explained_misses(const GoldenCase& golden, const Scores& scores,
-                                                    const std::map<std::string, std::string>& miss_reasons) {
-  std::map<std::string, std::string> misses;
-  std::string without, example;
-  for (const auto& each : target_results(scores)) {
-    if (each.met) continue;
-    const auto given = miss_reasons.find(each.name()), known = golden.known_misses.find(each.name());
-    if (given != miss_reasons.end() && !given->second.empty())
-      misses[each.name()] = given->second;
-    else if (known != golden.known_misses.end())
-      misses[each.name()] = known->second;
-    else
-      without += fmt::format("{}{} ({}, target {})", without.empty() ? "" : ", ", each.name(), each.value_text(),
-                             each.metric->target_text());
-    if (example.empty() && !misses.count(each.name())) example = each.name();
+int badness(ItemVerdict verdict) {
+  switch (verdict) {
+    case ItemVerdict::same:
+      return 0;
+    case ItemVerdict::within:
+      return 1;
+    case ItemVerdict::better:
+      return 2;
+    case ItemVerdict::unknown:
+      return 3;
+    case ItemVerdict::creep:
+      return 4;
+    case ItemVerdict::gone:
+    case ItemVerdict::worse:
+      break;
   }
-  if (!without.empty())
-    throw InputError("--miss", fmt::format("no reason given for missed targets: {}; expected one each, --miss "
-                                           "\"{}=why it is missed\"",
-                                           without, example));
-  for (const auto& [metric, reason] : miss_reasons)
-    if (!misses.count(metric)) throw InputError("--miss " + metric, "is no target that this run misses");
-  return misses;
+  return 5;
+}
+
+// Stages in the order in which they come first among the items, the worst first.
+std::vector<StageVerdict> stage_verdicts(const std::vector<GateItem>& items) {
+  std::vector<StageVerdict> stages;
+  for (const auto& item : items) {
+    auto found = std::find_if(stages.begin(), stages.end(), [&](const auto& each) { return each.stage == item.stage; });
+    if (found == stages.end()) found = stages.insert(stages.end(), StageVerdict{item.stage, ItemVerdict::same, 0, {}});
+    ++found->counts[item.verdict];
+    if (badness(item.verdict) > badness(found->verdict)) found->verdict = item.verdict;
+    if (is_failure(item.verdict)) found->times = std::max(found->times, item.times);
+  }
+  std::stable_sort(stages.begin(), stages.end(), [](const StageVerdict& a, const StageVerdict& b) {
+    if (badness(a.verdict) != badness(b.verdict)) return badness(a.verdict) > badness(b.verdict);
+    return a.times > b.times;
+  });
+  return stages;
 }
 
 }  // namespace
 
-GateResult compare_with_golden(const GoldenCase& golden, const Scores& scores,
-                               const std::map<std::string, cv::Mat>& images) {
+const char* verdict_word(ItemVerdict verdict) {
+  switch (verdict) {
+    case ItemVerdict::same:
+      return "identical";
+    case ItemVerdict::within:
+      return "within nuisance";
+    case ItemVerdict::better:
+      return "better";
+    case ItemVerdict::worse:
+      return "worse";
+    case ItemVerdict::creep:
+      return "creep";
+    case ItemVerdict::gone:
+      return "gone";
+    case ItemVerdict::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+bool is_failure(ItemVerdict verdict) { return badness(verdict) >= badness(ItemVerdict::unknown); }
+
+GateResult compare_with_golden(const GoldenCase& golden, const GoldenRun& run, const MeasuredNuisance& nuisance) {
   GateResult result;
-  compare_scores(golden, scores, result);
-  compare_targets(golden, scores, result);
-  compare_images(golden, images, result);
-  if (!result.findings.empty()) result.verdict = GateVerdict::regression;
-  if (result.verdict == GateVerdict::pass) find_unknown(golden, scores, images, result);
+  result.bytes = compare_bytes(golden.steps, golden.environment, run.steps, run.environment);
+  compare_scores(golden, run, nuisance, result);
+  compare_targets(golden, run.scores, result);
+  compare_images(golden, run, nuisance.picture_tolerance(), result);
+  find_unknown(golden, run, result);
+  for (const auto& item : result.items) {
+    if (is_failure(item.verdict)) result.findings.push_back(item);
+    if (item.verdict == ItemVerdict::better) result.better.push_back(item);
+    if (item.verdict == ItemVerdict::unknown && result.verdict == GateVerdict::pass)
+      result.verdict = GateVerdict::obsolete;
+    else if (is_failure(item.verdict) && item.verdict != ItemVerdict::unknown)
+      result.verdict = GateVerdict::regression;
+  }
+  for (auto* list : {&result.findings, &result.better})
+    std::stable_sort(list->begin(), list->end(),
+                     [](const GateItem& a, const GateItem& b) { return a.times > b.times; });
+  result.stages = stage_verdicts(result.items);
   return result;
 }
 
 double nuisance_tolerance(const ScoreRow& row) {
   const Metric* metric = find_metric(row.stage, row.metric);
-  if (!metric) throw std::logic_error("no metric declares " + name_of(row));
+  if (!metric) throw std::logic_error("no metric declares " + row.stage + " " + row.metric);
   if (!std::isfinite(row.value)) return 0;  // what was not measured is compared by its status
   return metric->nuisance().tolerance(row.value);
 }
 
-GoldenCase accepted(const GoldenCase& golden, const Scores& scores, const std::map<std::string, cv::Mat>& images,
-                    const std::string& reason, const std::map<std::string, std::string>& miss_reasons) {
-  GoldenCase result = golden;
-  result.known_misses = explained_misses(golden, scores, miss_reasons);
-  result.scores.clear();
-  std::string changes;
-  for (const auto& row : scores.rows) {
-    const GoldenScore* old = find(golden, row);
-    if (old && within(*old, row)) {
-      result.scores.push_back(*old);
-      continue;
-    }
-    result.scores.push_back({row, nuisance_tolerance(row)});
-    result.scores.back().row.n_samples = 0;
-    if (old) changes += fmt::format("; {}: {:.6g} -> {:.6g}", name_of(row), old->row.value, row.value);
+double worsening(const ScoreRow& row, double from, double to) {
+  const Metric* metric = find_metric(row.stage, row.metric);
+  switch (metric ? metric->better : Better::neither) {
+    case Better::lower:
+      return to - from;
+    case Better::higher:
+      return from - to;
+    case Better::near_zero:
+      return std::abs(to) - std::abs(from);
+    case Better::neither:
+      break;
   }
-  for (const auto& [stem, image] : images) {
-    const auto old = golden.images.find(stem);
-    if (old == golden.images.end() || image_difference(old->second, image) > kImageTolerance)
-      result.images[stem] = image;
-  }
-  for (auto it = result.images.begin(); it != result.images.end();)
-    it = images.count(it->first) ? std::next(it) : result.images.erase(it);
-  result.history.push_back(reason + changes);
-  return result;
-}
-
-cv::Mat flip_image(const cv::Mat& now, const cv::Mat& reference) {
-  if (now.size() != reference.size()) return now;
-  cv::Mat difference, row;
-  cv::absdiff(now, reference, difference);
-  cv::hconcat(std::vector<cv::Mat>{now, reference, difference * 10}, row);
-  return row;
+  return std::abs(to - from);
 }
 
 }  // namespace dressform

@@ -17,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string pixel_hash(const cv::Mat& image) {
-  const cv::Mat whole = image.isContinuous() ? image : image.clone();
-  return hash_hex({reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize()});
-}
-
 json read_golden_json(const fs::path& golden, const std::string& name) {
   const fs::path file = golden / name / "golden.json";
   std::ifstream in(file);
@@ -33,17 +28,6 @@ json read_golden_json(const fs::path& golden, const std::string& name) {
   return text;
 }
 
-GoldenCase recipe_from(const json& text, const std::string& name) {
-  GoldenCase result;
-  result.name = name;
-  result.scene = text.at("scene");
-  result.scale = text.at("scale");
-  result.seed = text.at("seed");
-  result.known_misses = text.value("known_misses", std::map<std::string, std::string>());
-  result.history = text.value("history", std::vector<std::string>());
-  return result;
-}
-
 GoldenScore score_from(const json& row) {
   GoldenScore score;  // member by member: a complaint half way leaves nothing half made
   score.row.stage = row.at("stage").get<std::string>();
@@ -53,7 +37,49 @@ GoldenScore score_from(const json& row) {
   score.row.value =
       row.at("value").is_null() ? std::numeric_limits<double>::quiet_NaN() : row.at("value").get<double>();
   score.tolerance = row.at("tolerance").get<double>();
+  score.first = score.row.value;
+  if (row.contains("first") && !row.at("first").is_null()) score.first = row.at("first").get<double>();
+  score.known_drift = row.value("known_drift", 0.0);
   return score;
+}
+
+std::vector<StepBytes> steps_from(const json& text) {
+  std::vector<StepBytes> steps;
+  if (!text.contains("steps")) return steps;
+  for (const auto& step : text.at("steps"))
+    steps.push_back({step.at("step").get<std::string>(), step.at("content").get<std::string>(),
+                     step.at("inputs").get<std::string>()});
+  return steps;
+}
+
+GoldenCase recipe_from(const json& text, const std::string& name) {
+  GoldenCase result;
+  result.name = name;
+  result.scene = text.at("scene");
+  result.scale = text.at("scale");
+  result.seed = text.at("seed");
+  result.known_misses = text.value("known_misses", std::map<std::string, std::string>());
+  result.history = text.value("history", std::vector<std::string>());
+  result.image_drift = text.value("image_drift", std::map<std::string, double>());
+  result.environment = text.value("environment", Environment());
+  result.steps = steps_from(text);
+  return result;
+}
+
+json to_json(const std::vector<StepBytes>& steps) {
+  json result = json::array();
+  for (const auto& step : steps)
+    result.push_back({{"step", step.step}, {"content", step.content}, {"inputs", step.inputs}});
+  return result;
+}
+
+json to_json(const GoldenScore& score) {
+  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(); };
+  json result = {{"stage", score.row.stage},         {"metric", score.row.metric}, {"unit", score.row.unit},
+                 {"value", number(score.row.value)}, {"status", score.row.status}, {"tolerance", score.tolerance}};
+  if (std::isfinite(score.first) && score.first != score.row.value) result["first"] = score.first;
+  if (score.known_drift > 0) result["known_drift"] = score.known_drift;
+  return result;
 }
 
 cv::Mat image_from(const fs::path& file, const std::string& hash) {
@@ -74,6 +100,11 @@ auto reading(const fs::path& golden, const std::string& name, const Read& read) 
 }
 
 }  // namespace
+
+std::string pixel_hash(const cv::Mat& image) {
+  const cv::Mat whole = image.isContinuous() ? image : image.clone();
+  return hash_hex({reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize()});
+}
 
 GoldenCase read_golden_recipe(const fs::path& golden, const std::string& name) {
   return reading(golden, name, [&](const json& text) { return recipe_from(text, name); });
@@ -100,13 +131,7 @@ GoldenCase read_golden_case(const fs::path& golden, const std::string& name) {
 void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
   fs::create_directories(golden / golden_case.name);
   json scores = json::array(), images = json::object();
-  for (const auto& score : golden_case.scores)
-    scores.push_back({{"stage", score.row.stage},
-                      {"metric", score.row.metric},
-                      {"unit", score.row.unit},
-                      {"value", std::isfinite(score.row.value) ? json(score.row.value) : json()},
-                      {"status", score.row.status},
-                      {"tolerance", score.tolerance}});
+  for (const auto& score : golden_case.scores) scores.push_back(to_json(score));
   for (const auto& [stem, image] : golden_case.images) {
     std::vector<unsigned char> bytes;
     cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
@@ -121,7 +146,10 @@ void write_golden_case(const fs::path& golden, const GoldenCase& golden_case) {
                      {"history", golden_case.history},
                      {"known_misses", golden_case.known_misses},
                      {"scores", scores},
-                     {"images", images}};
+                     {"images", images},
+                     {"image_drift", golden_case.image_drift},
+                     {"environment", golden_case.environment},
+                     {"steps", to_json(golden_case.steps)}};
   write_file_atomically(golden / golden_case.name / "golden.json", text.dump(1) + "\n");
 }
 

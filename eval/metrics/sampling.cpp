@@ -6,14 +6,10 @@
 #include <limits>
 
 #include "scenes/random.h"
+#include "scenes/triangle.h"
 
 namespace dressform::metrics {
 namespace {
-
-double area_of(const Mesh& mesh, const Vector3i& t) {
-  const auto& v = mesh.vertices;
-  return 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm();
-}
 
 double pairwise_sum(const double* values, std::size_t count) {
   if (count > 64) return pairwise_sum(values, count / 2) + pairwise_sum(values + count / 2, count - count / 2);
@@ -26,7 +22,7 @@ double pairwise_sum(const double* values, std::size_t count) {
 
 double surface_area(const Mesh& mesh) {
   double area = 0;
-  for (const auto& triangle : mesh.triangles) area += area_of(mesh, triangle);
+  for (const auto& triangle : mesh.triangles) area += triangle_area_m2(mesh, triangle);
   return area;
 }
 
@@ -42,7 +38,7 @@ SurfaceSamples sample_surface(const Mesh& mesh, double spacing_m, std::uint64_t 
   std::size_t next = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
-    passed += area_of(mesh, t);
+    passed += triangle_area_m2(mesh, t);
     const bool last = i + 1 == mesh.triangles.size();
     while (next < count) {
       const auto u = uniform4(seed, stream_of("surface samples"), next);

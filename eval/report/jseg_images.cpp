@@ -3,6 +3,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "eval/report/image_tools.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -37,13 +38,6 @@ cv::Mat j_grey(const cv::Mat& j) {
   return grey;
 }
 
-cv::Mat valley_image(const cv::Mat& bgr, const cv::Mat& valleys) {
-  cv::Mat blend, image = bgr.clone();
-  cv::addWeighted(bgr, 1 - kTint, cv::Mat(bgr.size(), CV_8UC3, kValley), kTint, 0, blend);
-  blend.copyTo(image, valleys != 0);
-  return image;
-}
-
 }  // namespace
 
 cv::Mat label_image_16bit(const std::string& where, const cv::Mat& labels) {
@@ -71,7 +65,7 @@ std::vector<std::pair<std::string, cv::Mat>> jseg_images(const cv::Mat& bgr, con
   std::vector<std::pair<std::string, cv::Mat>> images{{"classes", class_image(found.colors)}};
   for (std::size_t s = 0; s < found.j.size(); ++s)
     images.emplace_back("j_scale" + std::to_string(s + 1), j_grey(found.j[s]));
-  images.emplace_back("valleys", valley_image(bgr, found.valleys));
+  images.emplace_back("valleys", tinted(bgr, found.valleys != 0, kValley, kTint));
   images.emplace_back("unmerged", border_overlay(bgr, found.unmerged));
   images.emplace_back("overlay", border_overlay(bgr, found.regions));
   return images;

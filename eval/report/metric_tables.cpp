@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "eval/report/csv.h"
 #include "scenes/error.h"
 
 namespace dressform {
@@ -53,13 +54,6 @@ std::string table_line(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char letter : cell) text += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return text + "\"";
-}
-
 // The text of the table that a line of a document begins; empty when it begins none.
 std::string table_of_marker(const std::string& line) {
   if (line == "<!-- metrics -->") return metrics_markdown(all_metrics());
@@ -102,8 +96,8 @@ std::string metrics_csv(const std::vector<const Metric*>& metrics) {
     text += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{:g},{:g},{},{}\n", metric->stage, metric->name, metric->version, metric->unit,
         word_of(metric->better), metric->target ? fmt::format("{:g}", *metric->target) : "", metric->only,
-        metric->target ? fmt::format("{:g}", metric->from_scale) : "", quoted(metric->headline), nuisance.name,
-        nuisance.absolute, nuisance.relative, quoted(metric->definition), quoted(metric->paper));
+        metric->target ? fmt::format("{:g}", metric->from_scale) : "", csv_field(metric->headline), nuisance.name,
+        nuisance.absolute, nuisance.relative, csv_field(metric->definition), csv_field(metric->paper));
   }
   return text;
 }

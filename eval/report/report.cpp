@@ -204,4 +204,11 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
   return files;
 }
 
+std::vector<std::string> write_result_images(const Reconstruction& reconstruction, const fs::path& folder) {
+  Renderer renderer;
+  const auto results = result_figures(reconstruction, renderer, false);
+  fs::create_directories(folder / "renders");
+  return write_images(image_files(results, {}, {}), folder);
+}
+
 }  // namespace dressform

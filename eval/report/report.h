@@ -25,4 +25,8 @@ struct ReportInput {
 // the file names, relative to the folder.
 std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder);
 
+// Of the report's images those of the finished clothes alone, renders/result_mannequin.png and, where there is a user,
+// renders/result_user.png; the same bytes as the report's.
+std::vector<std::string> write_result_images(const Reconstruction& reconstruction, const std::filesystem::path& folder);
+
 }  // namespace dressform

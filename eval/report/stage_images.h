@@ -20,8 +20,8 @@ std::vector<StageFigures> stage_figures(const Reconstruction& reconstruction, co
 // Of bodies in all images, RGB.
 inline const Eigen::Vector3f kBodyColor{0.86f, 0.80f, 0.74f};
 
-// The finished clothes: on the mannequin and on the user, front, left, back, right; and a turntable. Titles name the
-// garments that were made.
-std::vector<Figure> result_figures(const Reconstruction& reconstruction, Renderer& renderer);
+// The finished clothes: on the mannequin and on the user, front, left, back, right; and, unless they are left out, a
+// turntable of each. Titles name the garments that were made.
+std::vector<Figure> result_figures(const Reconstruction& reconstruction, Renderer& renderer, bool turntables = true);
 
 }  // namespace dressform

@@ -13,8 +13,7 @@ struct ThesisTable {
     std::string reason;                  // why "-", where the run can't show it
   };
   struct Row {
-    std::string run;
-    std::vector<std::string> names;  // as `columns`
+    std::vector<std::string> names;  // as `columns`: first the run's
     std::vector<Figure> figures;     // the same measures in every row
   };
   int number = 0;

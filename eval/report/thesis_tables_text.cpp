@@ -4,17 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "eval/report/csv.h"
 #include "eval/report/thesis_tables.h"
 
 namespace dressform {
 namespace {
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string latex(const std::string& text) {
   std::string result;
@@ -87,7 +81,7 @@ std::string tables_csv(const std::vector<ThesisTable>& tables) {
       const std::vector<std::string> what(row.names.begin() + 1, row.names.end());
       for (const auto& figure : row.figures) {
         const std::vector<std::string> fields{std::to_string(table.number),
-                                              row.run,
+                                              row.names.front(),
                                               fmt::format("{}", fmt::join(what, " / ")),
                                               figure.measure,
                                               figure.value,

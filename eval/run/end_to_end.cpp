@@ -5,6 +5,7 @@
 #include <chrono>
 #include <opencv2/imgcodecs.hpp>
 
+#include "eval/oracle/oracle.h"
 #include "eval/report/report.h"
 #include "eval/run/export.h"
 #include "eval/run/run_folder.h"
@@ -25,10 +26,15 @@ json to_json(const StageRecord& record) {
   json values = json::object();
   for (const auto& [name, value] : record.recipe.values)
     std::visit([&, &name = name](const auto& held) { values[name] = held; }, value);
-  return {{"stage", record.label},     {"variant", record.recipe.variant},
-          {"parameters", values},      {"key", record.key},
-          {"seconds", record.seconds}, {"peak_memory_mb", record.peak_memory_mb},
-          {"reused", record.reused},   {"code_version", record.recipe.code_version}};
+  return {{"stage", record.label},
+          {"variant", record.recipe.variant},
+          {"parameters", values},
+          {"key", record.key},
+          {"seconds", record.seconds},
+          {"peak_memory_mb", record.peak_memory_mb},
+          {"reused", record.reused},
+          {"code_version", record.recipe.code_version},
+          {"content_hash", record.content_hash}};
 }
 
 json to_json(const ReconstructionOptions& options) {
@@ -106,7 +112,7 @@ std::vector<std::string> write_scores(const EndToEndRequest& request, const Grou
 std::vector<StageProblem> known_problems(const Reconstruction& made, const std::string& identity,
                                          const EndToEndRequest& request, Steps& steps) {
   const fs::path file = request.output / "problems.json";
-  steps.run("problems", hash_hex(identity + truth_hash(request.session)), [&] {
+  steps.run("problems", identity, [&] {
     const auto found = with_unfound_garments(stage_problems(made), made, truth_garment_names(request.session));
     write_file_atomically(file, to_json(found).dump(1) + "\n");
     return std::vector<std::string>{"problems.json"};
@@ -115,7 +121,7 @@ std::vector<StageProblem> known_problems(const Reconstruction& made, const std::
 }
 
 // What was asked, for run.json.
-json facts_of(const EndToEndRequest& request, const SessionSource& source) {
+json facts_of(const EndToEndRequest& request, const SessionSource& source, const std::string& truth) {
   json facts = request.facts;
   facts["provenance"] = provenance(request.threads);
   facts["scene"] = request.scene;
@@ -123,9 +129,10 @@ json facts_of(const EndToEndRequest& request, const SessionSource& source) {
   facts["seed"] = request.options.seed;
   facts["store"] = fs::absolute(request.store).lexically_normal().string();
   facts["options"] = to_json(request.options);
+  if (!request.oracles.empty()) facts["oracles"] = request.oracles;
   facts["session"] = {{"path", fs::absolute(request.session).string()},
                       {"content_hash", source.session.content_hash()},
-                      {"truth_hash", truth_hash(request.session)}};
+                      {"truth_hash", truth}};
   return facts;
 }
 
@@ -135,9 +142,18 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   check_options(request.options);
   const SessionSource source = open_session(request.session, request.check_session);
   RunFolder folder(request.output);
-  folder.facts() = facts_of(request, source);
+  const std::string hash_of_truth = truth_hash(request.session);  // read once: truth is as large as the session
+  folder.facts() = facts_of(request, source, hash_of_truth);
   ArtifactStore store(request.store);
-  const Reconstruction made = reconstruct(source, request.options, store, progress.stage);
+  std::optional<GroundTruth> truth;
+  const auto known_truth = [&]() -> const GroundTruth& {
+    if (!truth) truth = read_ground_truth(request.session);
+    return *truth;
+  };
+  const Reconstruction made =
+      request.oracles.empty()
+          ? reconstruct(source, request.options, store, progress.stage)
+          : reconstruct_with_truth(source, request.options, store, progress.stage, request.oracles, known_truth());
   folder.facts()["stages"] = json::array();
   for (const auto& record : made.records) folder.facts()["stages"].push_back(to_json(record));
   write_stage_folders(request.output / "stages", made.records, store);
@@ -145,22 +161,17 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
   Steps steps(folder, progress);
   const std::string identity = identity_of(made);
   EndToEndResult result;
-  result.problems = known_problems(made, identity, request, steps);
+  result.problems = known_problems(made, hash_hex(identity + hash_of_truth), request, steps);
   folder.facts()["problems"] = to_json(result.problems);
   steps.run("out", identity, [&] { return with_prefix("out/", export_reconstruction(made, request.output / "out")); });
   steps.run("labels", made.segmentation.content_hash(),
             [&] { return write_labels(made, segment_folder(made), request.output); });
 
-  std::optional<GroundTruth> truth;
-  const auto known_truth = [&]() -> const GroundTruth& {
-    if (!truth) truth = read_ground_truth(request.session);
-    return *truth;
-  };
   std::string scores_hash = "none";
   if (ground_truth_exists(request.session)) {
     const std::string scored =
-        hash_hex(folder.product_hash("out") + folder.product_hash("labels") + truth_hash(request.session) +
-                 request.scene + request.variant + std::to_string(request.options.seed) + code_version("eval"));
+        hash_hex(folder.product_hash("out") + folder.product_hash("labels") + hash_of_truth + request.scene +
+                 request.variant + std::to_string(request.options.seed) + code_version("eval"));
     steps.run("scores", scored, [&] { return write_scores(request, known_truth()); });
     result.scores = scores_from_json(request.output / "scores.json");
     scores_hash = folder.product_hash("scores");
@@ -175,6 +186,9 @@ EndToEndResult run_end_to_end(const EndToEndRequest& request, const EndToEndProg
       return write_report(input, request.output);
     });
     result.report = request.output / "report.html";
+  } else if (request.result_images) {
+    steps.run("result_images", hash_hex(identity + code_version("render")),
+              [&] { return write_result_images(made, request.output); });
   }
   folder.save();
   if (request.facts.contains("scale")) result.scale = request.facts["scale"].get<double>();

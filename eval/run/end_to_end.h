@@ -20,6 +20,8 @@ struct EndToEndRequest {
   bool check_session = true;  // read and check all of it first (recordings); false: it lies in the store, intact
   int threads = 1;
   bool report = true;                               // false: report.html and renders/ are not made
+  bool result_images = false;                       // without a report: of renders/ the two finished results alone
+  std::vector<std::string> oracles = {};            // stages that truth stands in for (eval/oracle/oracle.h)
   nlohmann::json facts = nlohmann::json::object();  // more for run.json
 };
 

@@ -1,8 +1,16 @@
 #include "eval/run/scene_run.h"
 
 #include "eval/run/run_folder.h"
+#include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
+
+void choose_sensor(Scene& scene, const VariantChoice& choice) {
+  auto& model = scene.sensor_model;
+  if (!choice.variant.empty() && choice.variant != model.variant) model = {choice.variant, {}};
+  for (const auto& [name, value] : choice.values) model.values[name] = value;
+  model.values = SensorModel::at(model.variant).complete(model.values);
+}
 
 EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress& progress) {
   check_options(request.options);
@@ -13,6 +21,8 @@ EndToEndResult run_scene(const SceneRunRequest& request, const SceneRunProgress&
   EndToEndRequest pipeline{capture.session, request.output,  store.root(), request.scene.name,
                            request.variant, request.options, false,        request.threads};
   pipeline.report = request.report;
+  pipeline.result_images = request.result_images;
+  pipeline.oracles = request.oracles;
   pipeline.facts = {{"scene_file", request.scene.file.string()},
                     {"scene_toml", request.scene.toml},
                     {"scale", request.scale},

@@ -8,6 +8,11 @@
 
 namespace dressform {
 
+// Gives the scene another sensor model, or other parameters of its own one; an empty choice leaves it as it is. Another
+// model takes none of the scene's parameters. Throws InputError for a model or parameter that is not known, and for
+// values out of range.
+void choose_sensor(Scene& scene, const VariantChoice& choice);
+
 // The whole pipeline from a scene: capture (or the stored one), then run_end_to_end.
 struct SceneRunRequest {
   Scene scene;       // scaled, with its sensor model chosen
@@ -16,7 +21,9 @@ struct SceneRunRequest {
   std::string variant = "default";
   ReconstructionOptions options;
   int threads = 1;
-  bool report = true;  // see EndToEndRequest
+  bool report = true;  // these three: see EndToEndRequest
+  bool result_images = false;
+  std::vector<std::string> oracles = {};
 };
 struct SceneRunProgress {
   SynthesisProgress capture;

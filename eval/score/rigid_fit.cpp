@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "eval/metrics/mesh_distance.h"
 #include "eval/metrics/sampling.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -86,7 +86,7 @@ Isometry3d small_motion(const Pairs& pairs) {
       right += weight * axis.dot(step) * row;
     }
   }
-  const Vector6d solved = equations.ldlt().solve(right);
+  const Vector6d solved = solve_symmetric(equations, right);
   const Vector3d turn = solved.head<3>();
   Isometry3d motion = Isometry3d::Identity();
   if (turn.norm() > 0) motion.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();

@@ -14,8 +14,4 @@ const StageDescription::VariantDescription& variant_at(const toml::node& node, c
 const FieldInfo& field_at(const toml::node& node, const std::string& owner, const std::vector<FieldInfo>& fields,
                           const std::string& name);
 
-// The node as a value of the parameter's own type, in its range. `name` is for the message.
-FieldValue checked_value(const toml::node& node, const std::string& name, const FieldInfo& field);
-[[noreturn]] void wrong_value(const toml::node& node, const std::string& name, const std::string& expected);
-
 }  // namespace dressform

@@ -4,7 +4,6 @@
 #include "eval/run/scene_run.h"
 #include "scenes/capture_session.h"
 #include "scenes/scene_parts.h"
-#include "synthetic/sensors/sensor_model.h"
 
 namespace dressform {
 namespace {
@@ -16,22 +15,10 @@ struct Machine {
   int threads = 1;
 };
 
-double scale_of(const StudyPlan& plan, const StudyVariant& variant) {
-  return variant.scale > 0 ? variant.scale : plan.study.scale;
-}
-
 // Files that are not the study's own may have changed since it was planned.
 void check_unchanged(const PlannedScene& scene, const std::string& hash_now) {
   if (hash_now != scene.content_hash)
     throw InputError(scene.path.string(), "changed since the study was planned; expected the same, or a new study");
-}
-
-void choose_sensor(Scene& scene, const VariantChoice& choice) {
-  if (!choice.variant.empty() && choice.variant != scene.sensor_model.variant)
-    scene.sensor_model = {choice.variant, {}};
-  for (const auto& [name, value] : choice.values) scene.sensor_model.values[name] = value;
-  auto& model = scene.sensor_model;
-  model.values = SensorModel::at(model.variant).complete(model.values);
 }
 
 Scene scene_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& machine) {
@@ -41,7 +28,7 @@ Scene scene_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& ma
   check_unchanged(planned, scene_hash(scene));
   if (!variant.rig.empty()) scene = with_rig(scene, machine.study / variant.rig);
   if (!variant.scan.empty()) scene = with_scan(scene, machine.study / variant.scan);
-  scene = scaled(scene, scale_of(plan, variant));
+  scene = scaled(scene, scale_of(plan, cell));
   choose_sensor(scene, variant.sensor);
   return scene;
 }
@@ -50,7 +37,7 @@ EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, co
                               const Machine& machine, CellCost& cost) {
   const StudyVariant& variant = plan.study.variants[cell.variant];
   SceneRunRequest request{scene_of(plan, cell, machine),
-                          scale_of(plan, variant),
+                          scale_of(plan, cell),
                           work,
                           machine.store,
                           variant.name,
@@ -58,13 +45,14 @@ EndToEndResult run_scene_cell(const StudyPlan& plan, const PlannedCell& cell, co
                           machine.threads};
   request.options.seed = cell.seed;
   request.report = false;
+  request.oracles = variant.oracles;
   SceneRunProgress progress;
   progress.captured = [&cost](const StoredCapture& capture) { cost.capture_seconds = capture.seconds; };
   return run_scene(request, progress);
 }
 
-EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work,
-                                  const Machine& machine) {
+// The recording that a cell is made of, as it was when the study was planned.
+fs::path recording_of(const StudyPlan& plan, const PlannedCell& cell, const Machine& machine) {
   const PlannedScene& planned = plan.scenes[cell.scene];
   const StudyVariant& variant = plan.study.variants[cell.variant];
   if (!variant.sensor.variant.empty() || !variant.rig.empty() || !variant.scan.empty() || variant.scale > 0)
@@ -72,8 +60,15 @@ EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell
                      "asks for another capture, which a recording cannot give; expected "
                      "scenes for it");
   check_unchanged(planned, session_content_hash(machine.study / planned.path));
+  return machine.study / planned.path;
+}
+
+EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work,
+                                  const Machine& machine) {
+  const PlannedScene& planned = plan.scenes[cell.scene];
+  const StudyVariant& variant = plan.study.variants[cell.variant];
   EndToEndRequest request;
-  request.session = machine.study / planned.path;
+  request.session = recording_of(plan, cell, machine);
   request.output = work;
   request.store = machine.store;
   request.scene = planned.name;
@@ -82,19 +77,35 @@ EndToEndResult run_recording_cell(const StudyPlan& plan, const PlannedCell& cell
   request.options.seed = cell.seed;
   request.threads = machine.threads;
   request.report = false;
+  request.oracles = variant.oracles;
   return run_end_to_end(request, {});
 }
 
-MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+// A variant that is someone else's program: the same captures, its command instead of the pipeline.
+MadeCell foreign_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+  MadeCell made;
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  ForeignRequest request{{}, work, cell.seed, machine.threads};
+  if (plan.scenes[cell.scene].recording) {
+    request.session = recording_of(plan, cell, machine);
+  } else {
+    ArtifactStore store(machine.store);
+    const auto capture = stored_capture(scene_of(plan, cell, machine), scale_of(plan, cell), cell.seed, store, {});
+    made.cost.capture_seconds = capture.seconds;
+    request.session = capture.session;
+  }
+  const ForeignResult result = run_foreign_pipeline(*variant.foreign, request);
+  made.result.scores = result.scores.rows;
+  made.cost.stage_seconds = {{"command", result.seconds}};
+  made.cost.peak_memory_mb = result.peak_memory_mb;
+  return made;
+}
+
+MadeCell pipeline_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
   MadeCell made;
   const bool recording = plan.scenes[cell.scene].recording;
   const EndToEndResult result =
       recording ? run_recording_cell(plan, cell, work, machine) : run_scene_cell(plan, cell, work, machine, made.cost);
-  made.result.id = cell.id;
-  made.result.signature = program_signature();
-  made.result.scene = plan.scenes[cell.scene].name;
-  made.result.seed = cell.seed;
-  made.result.scale = scale_of(plan, plan.study.variants[cell.variant]);
   for (const auto& problem : result.problems) made.result.problems.push_back(problem.text());
   if (result.scores) made.result.scores = result.scores->rows;
   for (const auto& record : result.records) {
@@ -102,6 +113,11 @@ MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::pat
     made.cost.peak_memory_mb = std::max(made.cost.peak_memory_mb, record.peak_memory_mb);
   }
   return made;
+}
+
+MadeCell make_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::path& work, const Machine& machine) {
+  const StudyVariant& variant = plan.study.variants[cell.variant];
+  return variant.foreign ? foreign_cell(plan, cell, work, machine) : pipeline_cell(plan, cell, work, machine);
 }
 
 }  // namespace

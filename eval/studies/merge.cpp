@@ -19,6 +19,12 @@ void check_same_study(const fs::path& folder, const fs::path& other) {
     throw InputError(other.string(), "holds another study than " + folder.string() + "; expected the same study.json");
 }
 
+// A cell's bytes, but for what does not count.
+std::string what_counts(CellResult cell) {
+  cell.signature = comparable(std::move(cell.signature));
+  return cell_json(cell);
+}
+
 struct Incoming {
   fs::path from;
   std::string bytes;
@@ -32,26 +38,25 @@ MergeSummary merge_studies(const fs::path& folder, const std::vector<fs::path>& 
   std::map<std::string, Incoming> incoming;
   std::optional<CellResult> first;  // whose signature all have
   MergeSummary summary;
-  const auto check = [&](const fs::path& file) {
-    const CellResult cell = read_cell(file);
+  const auto checked = [&](const fs::path& file) {
+    CellResult cell = read_cell(file);
     if (!first) first = cell;
     const std::string other = difference_of(first->signature, cell.signature);
     if (!other.empty())
       throw InputError(file.string(), "has another signature (" + other + "); expected cells of one program");
+    return what_counts(std::move(cell));
   };
   for (const auto& cell : cells_of(plan, folder)) {
     const fs::path own = cell_file(folder, cell.id);
-    std::string known = fs::exists(own) ? read_file_bytes(own) : std::string();
-    if (!known.empty()) check(own);
+    std::string known = fs::exists(own) ? checked(own) : std::string();
     for (const auto& other : others) {
       const fs::path file = cell_file(other, cell.id);
       if (!fs::exists(file)) continue;
-      check(file);
-      const std::string bytes = read_file_bytes(file);
+      const std::string found = checked(file);
       if (known.empty()) {
-        incoming[cell.id] = {other, bytes};
-        known = bytes;
-      } else if (known != bytes) {
+        incoming[cell.id] = {other, read_file_bytes(file)};
+        known = found;
+      } else if (known != found) {
         throw InputError(file.string(), "differs from the same cell made elsewhere; expected the same bytes");
       } else {
         ++summary.known;

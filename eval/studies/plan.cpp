@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "scenes/capture_session.h"
 #include "scenes/file_bytes.h"
 #include "scenes/hash.h"
+#include "scenes/scene_parts.h"
 
 namespace dressform {
 namespace {
@@ -18,10 +20,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kIdDigits = 20;  // of a hash
 
-// The files that a study brings into being in its folder, all of them known before the first is written.
-struct NewFiles {
-  std::vector<std::pair<fs::path, std::string>> files;  // relative name, bytes
-};
+// The files that a study brings into being in its folder, all of them known before the first is written: relative name,
+// bytes.
+using NewFiles = std::map<fs::path, std::string>;
 
 PlannedScene planned_file(const fs::path& file) {
   const Scene scene = read_scene(file);
@@ -35,9 +36,8 @@ PlannedScene planned_recording(const fs::path& folder) {
 PlannedScene planned_draw(const DrawOptions& options, Seed seed, NewFiles& fresh) {
   const DrawnScene drawn = draw_scene(options, seed);
   const fs::path file = fs::path("scenes") / (drawn.name + ".toml");
-  fresh.files.push_back({file, scene_toml(drawn)});
   Scene alone;  // its text is all there is to it: it names no other file
-  alone.toml = fresh.files.back().second;
+  alone.toml = fresh[file] = scene_toml(drawn);
   return {drawn.name, false, file, scene_hash(alone), strata_of(drawn)};
 }
 
@@ -58,17 +58,16 @@ std::vector<PlannedScene> planned_scenes(const Study& study, NewFiles& fresh) {
 }
 
 // A rig or scan that a variant brings along is copied, so that the folder can go to another machine.
-void keep_file(fs::path& file, NewFiles& fresh) {
+void keep_file(fs::path& file, std::vector<std::string> (*files_of)(const fs::path&), NewFiles& fresh) {
   if (file.empty()) return;
+  const auto parts = files_of(file);
+  if (parts.size() > 1)  // the copy would not find them, and a cell would not know when they change
+    throw InputError(file.string(),
+                     "refers to \"" + parts[1] + "\"; expected a file of a study's variant that stands alone");
   const std::string bytes = read_file_bytes(file);
   const fs::path kept =
       fs::path("rigs") / fmt::format("{}_{}.toml", file.stem().string(), hash_hex(bytes).substr(0, 8));
-  for (const auto& [name, known] : fresh.files)
-    if (name == kept) {
-      file = kept;
-      return;
-    }
-  fresh.files.push_back({kept, bytes});
+  fresh[kept] = bytes;
   file = kept;
 }
 
@@ -93,26 +92,30 @@ std::string content_of(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 StudyPlan plan_study(const fs::path& study_file, const fs::path& folder) {
-  StudyPlan plan{read_study(study_file), {}};
+  return plan_study(read_study(study_file), read_file_bytes(study_file), folder);
+}
+
+StudyPlan plan_study(Study study, const std::string& as_written, const fs::path& folder) {
+  StudyPlan plan{std::move(study), {}};
   check_variants(plan.study);
   NewFiles fresh;
   plan.scenes = planned_scenes(plan.study, fresh);
   for (auto& variant : plan.study.variants) {
-    keep_file(variant.rig, fresh);
-    keep_file(variant.scan, fresh);
+    keep_file(variant.rig, files_of_rig, fresh);
+    keep_file(variant.scan, files_of_scan, fresh);
   }
   plan.study.scenes.clear();
   plan.study.recordings.clear();
   plan.study.drawn.clear();
   const std::string text = plan_json(plan);
   check_free(folder, text);
-  for (const auto& [name, bytes] : fresh.files) {
+  for (const auto& [name, bytes] : fresh) {
     fs::create_directories((folder / name).parent_path());
     write_file_atomically(folder / name, bytes);
   }
   fs::create_directories(folder / "cells");
   fs::create_directories(folder / "costs");
-  write_file_atomically(folder / "study.toml", read_file_bytes(study_file));
+  write_file_atomically(folder / "study.toml", as_written);
   write_file_atomically(folder / "study.json", text);  // last: a folder with it is whole
   return plan;
 }
@@ -122,6 +125,11 @@ StudyPlan read_plan(const fs::path& folder) {
   if (!fs::exists(file))
     throw InputError(folder.string(), "holds no study.json; expected a folder made by `dressform study new`");
   return plan_from_json(file);
+}
+
+double scale_of(const StudyPlan& plan, const PlannedCell& cell) {
+  const double own = plan.study.variants[cell.variant].scale;
+  return own > 0 ? own : plan.study.scale;
 }
 
 std::vector<PlannedCell> cells_of(const StudyPlan& plan, const fs::path& folder) {

@@ -33,6 +33,8 @@ struct PlannedCell {
 // Plans the study into a new folder: study.json, study.toml as written, and scenes/. The same study planned again
 // changes nothing. Throws InputError when the folder holds something else.
 StudyPlan plan_study(const std::filesystem::path& study_file, const std::filesystem::path& folder);
+// The same of a study that no file holds; `as_written`: what stands in study.toml for people.
+StudyPlan plan_study(Study study, const std::string& as_written, const std::filesystem::path& folder);
 
 // Throws InputError naming the folder or file when there is no intact plan.
 StudyPlan read_plan(const std::filesystem::path& folder);
@@ -40,6 +42,9 @@ StudyPlan read_plan(const std::filesystem::path& folder);
 // All cells: scene by scene, seed by seed, so that variants that follow one another share their upstream work.
 // Two variants that ask for the same are one cell, with one id.
 std::vector<PlannedCell> cells_of(const StudyPlan& plan, const std::filesystem::path& folder);
+
+// Of the cell's cameras: the variant's, or the study's.
+double scale_of(const StudyPlan& plan, const PlannedCell& cell);
 
 std::filesystem::path cell_file(const std::filesystem::path& folder, const std::string& id);
 std::filesystem::path cost_file(const std::filesystem::path& folder, const std::string& id);

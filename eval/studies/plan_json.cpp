@@ -40,6 +40,8 @@ StudyVariant variant_from(const json& text) {
   variant.scale = text.at("scale");
   variant.rig = text.at("rig").get<std::string>();
   variant.scan = text.at("scan").get<std::string>();
+  if (text.contains("oracles")) variant.oracles = text.at("oracles").get<std::vector<std::string>>();
+  if (text.contains("foreign")) variant.foreign = foreign_from_json(text.at("foreign"));
   return variant;
 }
 
@@ -91,6 +93,8 @@ json variant_json(const StudyVariant& variant, bool with_name) {
                {"sensor", variant.sensor.variant},
                {"sensor_values", values_json(variant.sensor.values)},
                {"scale", variant.scale}};
+  if (!variant.oracles.empty()) text["oracles"] = variant.oracles;
+  if (variant.foreign) text["foreign"] = foreign_json(*variant.foreign, with_name);
   if (!with_name) return text;
   text["name"] = variant.name;
   text["rig"] = variant.rig.string();

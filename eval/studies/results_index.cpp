@@ -6,21 +6,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "eval/run/run_facts.h"
 #include "eval/score/metric.h"
 #include "eval/score/scores.h"
 #include "eval/studies/cell.h"
 #include "eval/studies/plan.h"
 #include "scenes/error.h"
-#include "scenes/file_bytes.h"
 
 namespace dressform {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 struct RunRow {
   std::string kind, folder, scene, variant;
@@ -35,19 +33,9 @@ std::int64_t modified_seconds(const fs::path& file) {
   return stat(file.c_str(), &status) == 0 ? static_cast<std::int64_t>(status.st_mtime) : 0;
 }
 
-// What run.json knows of the scores beside it; they stand alone where it is not there.
-void add_run_facts(const fs::path& file, RunRow& row) {
-  if (!fs::exists(file)) return;
-  const json facts = json::parse(read_file_bytes(file), nullptr, false);
-  if (!facts.is_object()) throw InputError(file.string(), "is damaged; expected the JSON that a run wrote");
-  if (facts.contains("scale") && facts["scale"].is_number()) row.scale = facts["scale"].get<double>();
-  if (facts.contains("provenance") && facts["provenance"].is_object())
-    row.program = facts["provenance"].value("commit", std::string());
-}
-
 std::string signature_text(const Signature& signature) {
   std::string text;
-  for (const char* name : {"code", "metrics"})
+  for (const char* name : {"commit", "code", "metrics"})
     if (const auto found = signature.find(name); found != signature.end())
       text += (text.empty() ? "" : ", ") + std::string(name) + " " + found->second;
   return text;
@@ -134,10 +122,11 @@ class Filler {
 
   void add_run(const fs::path& scores_file) {
     const Scores scores = scores_from_json(scores_file);
-    RunRow row{"run", scores_file.parent_path().string(), scores.scene, scores.variant, scores.seed, {},
-               "",    modified_seconds(scores_file)};
-    add_run_facts(scores_file.parent_path() / "run.json", row);
-    add(row, scores.rows);
+    const fs::path run = scores_file.parent_path();
+    const RunFacts facts = read_run_facts(run);  // the scores stand alone where it has none
+    add({"run", run.string(), scores.scene, scores.variant, scores.seed, facts.scale, facts.commit,
+         modified_seconds(scores_file)},
+        scores.rows);
   }
 
   void add_study(const fs::path& folder) {

@@ -11,6 +11,8 @@
 #include <map>
 #include <set>
 
+#include "eval/studies/masked_paths.h"
+#include "eval/studies/shared_file.h"
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/temporary_files.h"
@@ -104,7 +106,7 @@ class CellRunner {
       : plan_(plan), request_(request), make_(make), progress_(progress) {}
 
   RunCellsSummary run() {
-    const auto cells = chosen_cells(plan_, request_);
+    const auto cells = cells_ = chosen_cells(plan_, request_);
     total_ = static_cast<int>(cells.size());
     for (const auto& cell : cells) done_ += is_there(cell);
     summary_.present = done_;
@@ -128,7 +130,7 @@ class CellRunner {
  private:
   bool is_there(const PlannedCell& cell) const {
     const fs::path file = cell_file(request_.folder, cell.id);
-    if (!fs::exists(file)) return false;
+    if (!can_be_opened(file)) return false;
     const CellResult found = read_cell(file);
     const std::string other = difference_of(found.signature, request_.signature);
     if (!other.empty() && !request_.renew)
@@ -142,43 +144,57 @@ class CellRunner {
       if (!is_there(cell)) make_one(cell);
   }
 
+  // Whose cell it is, whether it failed or not.
+  MadeCell identified(MadeCell made, const PlannedCell& cell) const {
+    made.result.id = cell.id;
+    made.result.signature = request_.signature;
+    made.result.scene = plan_.scenes[cell.scene].name;
+    made.result.seed = cell.seed;
+    made.result.scale = scale_of(plan_, cell);
+    return made;
+  }
+
   MadeCell attempt(const PlannedCell& cell, const fs::path& work) const {
-    const double own_scale = plan_.study.variants[cell.variant].scale;
     CellResult failed;
-    failed.id = cell.id;
-    failed.signature = request_.signature;
-    failed.scene = plan_.scenes[cell.scene].name;
-    failed.seed = cell.seed;
-    failed.scale = own_scale > 0 ? own_scale : plan_.study.scale;
     failed.failed = true;
     try {
-      return make_(plan_, cell, work);
+      return identified(make_(plan_, cell, work), cell);
     } catch (const InputError& error) {
       failed.reason = error.what();
     } catch (const std::exception& error) {
       failed.reason = std::string("crash: ") + error.what();
     }
-    failed.reason = without_paths(failed.reason.substr(0, failed.reason.find('\n')), work);
-    return {failed, {}};
+    failed.reason = without_paths(failed.reason.substr(0, failed.reason.find('\n')), cell, work);
+    return identified({failed, {}}, cell);
   }
 
-  // A reason names no folder of this machine or process: the same failure gives the same bytes.
-  std::string without_paths(std::string reason, const fs::path& work) const {
-    for (const auto& [path, word] : {std::pair{work.string(), "<run>"}, {request_.folder.string(), "<study>"}})
-      for (auto at = reason.find(path); at != reason.npos; at = reason.find(path))
-        reason.replace(at, path.size(), word);
-    return reason;
+  // A reason names no folder of this machine or process: the same failure gives the same bytes. Files that a scene
+  // refers to lie beside it.
+  std::string without_paths(const std::string& reason, const PlannedCell& cell, const fs::path& work) const {
+    std::vector<std::pair<std::string, std::string>> words{{work.string(), "<run>"},
+                                                           {request_.folder.string(), "<study>"}};
+    const fs::path& scene = plan_.scenes[cell.scene].path;
+    if (scene.is_absolute()) {
+      words.push_back({scene.string(), "<scene>"});
+      words.push_back({scene.parent_path().string(), "<scenes>"});
+    }
+    return with_masked_paths(reason, words);
   }
 
   void make_one(const PlannedCell& cell) {
+    if (request_.workers > 1)  // others make cells too
+      done_ = static_cast<int>(std::count_if(cells_.begin(), cells_.end(), [&](const PlannedCell& each) {
+        return fs::exists(cell_file(request_.folder, each.id));
+      }));
     if (progress_.begin) progress_.begin(cell, done_, total_, seconds_left());
     const auto start = std::chrono::steady_clock::now();
     const fs::path work = work_folder(request_.folder, cell.id);
     fs::create_directories(work);
     const MadeCell made = attempt(cell, work);
     write_file_atomically(cost_file(request_.folder, cell.id), cost_json(made.cost));
-    write_file_atomically(cell_file(request_.folder, cell.id), cell_json(made.result));
-    if (!request_.keep_work) fs::remove_all(work);
+    (request_.durable ? write_file_durably : write_file_atomically)(cell_file(request_.folder, cell.id),
+                                                                    cell_json(made.result));
+    put_away(work, cell.id);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     spent_ += seconds;
     ++summary_.made, ++done_;
@@ -186,12 +202,26 @@ class CellRunner {
     if (progress_.end) progress_.end(cell, made, seconds);
   }
 
-  double seconds_left() const { return summary_.made == 0 ? -1 : (total_ - done_) * spent_ / summary_.made; }
+  // Kept folders have the cell's name alone: no process is looked for in it, so nobody takes them for a dead one's.
+  void put_away(const fs::path& work, const std::string& id) const {
+    const fs::path kept = request_.folder / "work" / id;
+    if (!request_.keep_work) {
+      fs::remove_all(work);
+      return;
+    }
+    fs::remove_all(kept);
+    fs::rename(work, kept);
+  }
+
+  double seconds_left() const {
+    return summary_.made == 0 ? -1 : (total_ - done_) * spent_ / summary_.made / request_.workers;
+  }
 
   const StudyPlan& plan_;
   const RunCellsRequest& request_;
   const MakeCell& make_;
   const RunCellsProgress& progress_;
+  std::vector<PlannedCell> cells_;
   RunCellsSummary summary_;
   int done_ = 0, total_ = 0;
   double spent_ = 0;

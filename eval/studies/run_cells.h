@@ -9,6 +9,7 @@
 namespace dressform {
 
 // Makes one cell; `work` is a folder of its own for what it writes on the way. Whatever it throws makes a failed cell.
+// run_cells says whose cell it is (id, signature, scene, seed and scale of the result).
 using MakeCell = std::function<MadeCell(const StudyPlan&, const PlannedCell&, const std::filesystem::path& work)>;
 
 struct RunCellsRequest {
@@ -17,7 +18,9 @@ struct RunCellsRequest {
   Signature signature;            // of this program
   bool retry_failed = false;      // failed cells once more
   bool renew = false;             // cells of other programs anew; false: they are an error
-  bool keep_work = false;         // the runs' folders stay in work/
+  int workers = 1;                // processes that work on the study now, this one counted: for the time that is left
+  bool durable = false;           // each cell is on the disk before it has its name: power may fail, folders be shared
+  bool keep_work = false;         // each cell's run stays in work/<cell id>
 };
 
 struct RunCellsProgress {

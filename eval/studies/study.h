@@ -1,9 +1,11 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "eval/studies/draw/draw_scene.h"
+#include "eval/studies/foreign_pipeline.h"
 #include "eval/studies/study_metric.h"
 #include "pipeline/reconstruct.h"
 
@@ -12,10 +14,12 @@ namespace dressform {
 // One side of a comparison: what differs from the default pipeline and the scene as it is.
 struct StudyVariant {
   std::string name;
-  ReconstructionOptions options;    // its seed is the cell's
-  VariantChoice sensor;             // empty: the scene's
-  std::filesystem::path rig, scan;  // instead of the scene's; empty: the scene's
-  double scale = 0;                 // 0: the study's
+  ReconstructionOptions options;           // its seed is the cell's
+  VariantChoice sensor;                    // empty: the scene's
+  std::filesystem::path rig, scan;         // instead of the scene's; empty: the scene's
+  double scale = 0;                        // 0: the study's
+  std::vector<std::string> oracles;        // stages that truth stands in for
+  std::optional<ForeignPipeline> foreign;  // instead of the pipeline: `options` are empty then
 };
 
 // Scenes drawn by the seeds first_seed, first_seed + 1, ...

@@ -30,24 +30,21 @@ std::string interval_text(const StudyMetric& metric, const std::optional<Interva
   return fmt::format("{} to {}", difference_text(metric, interval->low), difference_text(metric, interval->high));
 }
 
+// "8 of 12 (39 to 86 %)".
 std::string rate_text(const SuccessRate& rate) {
   if (rate.trials == 0) return "-";
   return fmt::format("{} of {} ({:.0f} to {:.0f} %)", rate.successes, rate.trials, 100 * rate.interval.low,
                      100 * rate.interval.high);
 }
 
-std::string value_text(const StudyMetric& metric, double value) {
-  return std::isfinite(value) ? number_text(value, metric.metric->unit) : "-";
-}
-
-std::string size_text(const StudyMetric& metric, double value) {
-  return std::isfinite(value) ? number_text(value, metric.metric->unit) : "none";
+std::string value_text(const StudyMetric& metric, double value, const char* without = "-") {
+  return std::isfinite(value) ? number_text(value, metric.metric->unit) : without;
 }
 
 class ReportMaker {
  public:
-  ReportMaker(const StudyResults& results, bool seconds)
-      : results_(results), study_(results.plan.study), seconds_(seconds), summaries_(compare_variants(results)) {}
+  ReportMaker(const StudyResults& results, const std::vector<VariantSummary>& summaries, bool seconds)
+      : results_(results), study_(results.plan.study), seconds_(seconds), summaries_(summaries) {}
 
   StudyReport make() const {
     StudyReport report{study_.name, headline(), {}};
@@ -180,7 +177,7 @@ class ReportMaker {
         {p_text(c.p), ""},
         {p_text(c.p_holm), ""},
         {p_text(c.p_equivalent), ""},
-        {size_text(metric, c.detectable), ""},
+        {value_text(metric, c.detectable, "none"), ""},
         {std::to_string(c.pairs()), ""},
         {rate_text(c.variant_success) + "; baseline " + rate_text(c.baseline_success), ""},
         {fmt::format("better {}, worse {}, equal {}; p {}", worst.better, worst.worse, worst.equal, p_text(worst.p)),
@@ -190,12 +187,10 @@ class ReportMaker {
   void add_targets(const VariantSummary& summary, const std::string& stratum, ReportTable& table) const {
     const TargetsMet count = count_targets(results_, summary.variant, stratum);
     if (count.scenes == 0) return;
-    const Interval interval = wilson_interval(count.all_met, count.scenes);
+    const SuccessRate rate{count.all_met, count.scenes, wilson_interval(count.all_met, count.scenes)};
     table.rows.push_back({{name_of(summary), ""},
                           {stratum.empty() ? "all" : stratum, ""},
-                          {fmt::format("{} of {} ({:.0f} to {:.0f} %)", count.all_met, count.scenes, 100 * interval.low,
-                                       100 * interval.high),
-                           ""},
+                          {rate_text(rate), ""},
                           {fmt::format("{} of {}", count.met, count.asked), ""}});
   }
 
@@ -214,7 +209,7 @@ class ReportMaker {
   static Cell outcome_cell(const StudyMetric& metric, const Outcome& outcome) {
     if (outcome.state == Outcome::State::failed) return {"failed", "bad"};
     if (outcome.state == Outcome::State::absent) return {"-", "quiet"};
-    return {number_text(outcome.value, metric.metric->unit), ""};
+    return {value_text(metric, outcome.value), ""};
   }
 
   ReportSection scenes(std::size_t m) const {
@@ -270,26 +265,30 @@ class ReportMaker {
   const StudyResults& results_;
   const Study& study_;
   bool seconds_;
-  std::vector<VariantSummary> summaries_;
+  const std::vector<VariantSummary>& summaries_;
 };
 
 }  // namespace
 
-StudyReport study_report(const StudyResults& results, bool seconds) { return ReportMaker(results, seconds).make(); }
+StudyReport study_report(const StudyResults& results, const std::vector<VariantSummary>& summaries, bool seconds) {
+  return ReportMaker(results, summaries, seconds).make();
+}
 
-std::vector<std::filesystem::path> write_study_report(const std::filesystem::path& folder, bool seconds) {
+WrittenReport write_study_report(const std::filesystem::path& folder, bool seconds) {
   const StudyResults results = read_results(folder);
-  const StudyReport report = study_report(results, seconds);
-  const std::vector<std::pair<const char*, std::string>> files{{"report.md", report_markdown(report)},
-                                                               {"report.html", report_html(report)},
-                                                               {"results.csv", results_csv(results)},
-                                                               {"comparisons.csv", comparisons_csv(results)}};
-  std::vector<std::filesystem::path> names;
+  const std::vector<VariantSummary> summaries = compare_variants(results);
+  const StudyReport report = study_report(results, summaries, seconds);
+  const std::vector<std::pair<const char*, std::string>> files{
+      {"report.md", report_markdown(report)},
+      {"report.html", report_html(report)},
+      {"results.csv", results_csv(results)},
+      {"comparisons.csv", comparisons_csv(results, summaries)}};
+  WrittenReport written{report.headline, {}};
   for (const auto& [name, bytes] : files) {
     write_file_atomically(folder / name, bytes);
-    names.push_back(folder / name);
+    written.files.push_back(folder / name);
   }
-  return names;
+  return written;
 }
 
 }  // namespace dressform

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "eval/report/csv.h"
 #include "eval/studies/study_report.h"
 #include "scenes/hash.h"
 
@@ -32,14 +33,6 @@ std::string markdown_table(const ReportTable& table) {
   return text;
 }
 
-// Quoted where a comma, a quote or a line break would part it.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string result = "\"";
-  for (const char letter : text) result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return result + "\"";
-}
-
 std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "nan"; }
 std::string csv_number(const std::optional<double>& value) { return value ? csv_number(*value) : ""; }
 std::string interval_csv(const std::optional<Interval>& interval) {
@@ -48,7 +41,7 @@ std::string interval_csv(const std::optional<Interval>& interval) {
 
 std::string signature_hash(const Signature& signature) {
   std::string text;
-  for (const auto& [name, value] : signature) text += name + " " + value + "\n";
+  for (const auto& [name, value] : comparable(signature)) text += name + " " + value + "\n";
   return hash_hex(text).substr(0, 12);
 }
 
@@ -91,32 +84,32 @@ std::string results_csv(const StudyResults& results) {
     for (const auto& metric : study.metrics) {
       const Outcome outcome = cell.failed ? Outcome{Outcome::State::failed, 0} : outcome_of(metric, cell.scores);
       text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(study.variants[each.variant].name),
-          csv_text(results.plan.scenes[each.scene].name), each.seed, cell.scale, state_word(outcome.state),
-          csv_text(metric.text), metric.primary ? "primary" : "secondary", metric.metric->unit,
+          "{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(study.variants[each.variant].name),
+          csv_field(results.plan.scenes[each.scene].name), each.seed, cell.scale, state_word(outcome.state),
+          csv_field(metric.text), metric.primary ? "primary" : "secondary", metric.metric->unit,
           outcome.state == Outcome::State::measured ? csv_number(outcome.value) : "nan", each.id, signature);
     }
   }
   return text;
 }
 
-std::string comparisons_csv(const StudyResults& results) {
+std::string comparisons_csv(const StudyResults& results, const std::vector<VariantSummary>& summaries) {
   const Study& study = results.plan.study;
   const std::string signature = signature_hash(results.signature);
   std::string text =
       "variant,baseline,metric,role,unit,margin,pairs,baseline_mean,variant_mean,difference,low,high,p,p_holm,"
       "p_equivalent,smallest_effect,verdict,variant_ok,variant_scenes,baseline_ok,baseline_scenes,better,worse,equal,"
       "p_with_failures,signature\n";
-  for (const auto& summary : compare_variants(results)) {
+  for (const auto& summary : summaries) {
     const std::string& name = study.variants[summary.variant].name;
     if (name == study.baseline) continue;
     for (std::size_t m = 0; m < study.metrics.size(); ++m) {
       const StudyMetric& metric = study.metrics[m];
       const Comparison& c = summary.comparisons[m];
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{},{},", csv_text(name), csv_text(study.baseline), csv_text(metric.text),
-                      metric.primary ? "primary" : "secondary", metric.metric->unit, metric.margin, c.pairs(),
-                      csv_number(c.baseline_mean), csv_number(c.variant_mean), csv_number(c.effect));
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},", csv_field(name), csv_field(study.baseline),
+                          csv_field(metric.text), metric.primary ? "primary" : "secondary", metric.metric->unit,
+                          metric.margin, c.pairs(), csv_number(c.baseline_mean), csv_number(c.variant_mean),
+                          csv_number(c.effect));
       text +=
           fmt::format("{},{},{},{},{},{},", interval_csv(c.interval), csv_number(c.p), csv_number(c.p_holm),
                       csv_number(c.p_equivalent), csv_number(c.detectable), metric.primary ? to_text(c.verdict) : "");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "eval/score/targets.h"
@@ -25,6 +26,14 @@ void check_one_signature(const StudyResults& results, const fs::path& folder) {
                            "); expected cells of one program: numbers of different ones are not compared "
                            "(`dressform study run --renew`)");
   }
+}
+
+// Cells may be of several commits whose code is the same: all of them are named.
+void name_commits(StudyResults& results) {
+  std::set<std::string> commits;
+  for (const auto& [id, cell] : results.cells)
+    if (const auto found = cell.signature.find("commit"); found != cell.signature.end()) commits.insert(found->second);
+  if (!commits.empty()) results.signature["commit"] = fmt::format("{}", fmt::join(commits, " and "));
 }
 
 std::size_t index_of(const Study& study, const std::string& variant) {
@@ -131,6 +140,7 @@ StudyResults read_results(const fs::path& folder) {
     throw InputError(folder.string(), "has no cell yet; expected some made by `dressform study run`");
   results.signature = results.cells.begin()->second.signature;
   check_one_signature(results, folder);
+  name_commits(results);
   return results;
 }
 

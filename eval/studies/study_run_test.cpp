@@ -51,7 +51,6 @@ MadeCell mock_cell(const StudyPlan& plan, const PlannedCell& cell, const fs::pat
       0.8 + 0.05 * normal(cell.scene, stream_of("mock scene"), 0) + (variant == "better" ? 0.05 : 0) +
       0.005 * normal(cell.seed, stream_of(variant == "again" ? "default" : variant.c_str()), cell.scene);
   MadeCell made;
-  made.result = {cell.id, kSignature, plan.scenes[cell.scene].name, cell.seed, plan.study.scale, false, "", {}, {}};
   made.result.scores = {{"surface", "top/f_5mm@1", "1", value, "ok", 10},
                         {"surface", "bottom/f_5mm@1", "1", value - 0.1, "ok", 10},
                         {"open", "top/rims_hd95_mm@1", "mm", 20 - value, "ok", 4}};
@@ -72,11 +71,16 @@ std::map<std::string, std::string> cell_bytes(const fs::path& folder) {
   return bytes;
 }
 
+StudyReport report_of(const fs::path& folder, bool seconds = true) {
+  const StudyResults results = read_results(folder);
+  return study_report(results, compare_variants(results), seconds);
+}
+
 std::size_t cell_count(const fs::path& folder) { return cell_bytes(folder).size(); }
 
 std::string report_bytes(const fs::path& folder) {
   std::string bytes;
-  for (const auto& file : write_study_report(folder, false)) bytes += read_file_bytes(file);
+  for (const auto& file : write_study_report(folder, false).files) bytes += read_file_bytes(file);
   return bytes;
 }
 
@@ -92,6 +96,20 @@ TEST(StudyRun, PlanHoldsScenesAndIsPlannedOnce) {
   EXPECT_THROW(plan_study(other, folder), InputError);
   EXPECT_EQ(read_file_bytes(folder / "study.json"), before);
   EXPECT_THROW(read_plan(fresh_folder("nothing")), InputError);
+}
+
+TEST(StudyRun, ARigOfSeveralFilesCannotBeKept) {
+  planned("rigs", 1);
+  const fs::path folder = testing::TempDir(), file = folder / "mock_study.toml";
+  const fs::path library = fs::path(DRESSFORM_SOURCE_DIR) / "scenes/library/rigs/ring3.toml";
+  const auto plan_with = [&](const std::string& rig) {
+    const fs::path copy = folder / "rig_study.toml";
+    write_file_atomically(copy, read_file_bytes(file) + "[[variant]]\nname = \"rig\"\nrig = \"" + rig + "\"\n");
+    return plan_study(copy, fresh_folder("rigs_planned"));
+  };
+  std::ofstream(folder / "outer_rig.toml") << "file = \"" << library.string() << "\"\n";
+  EXPECT_THROW(plan_with((folder / "outer_rig.toml").string()), InputError);
+  EXPECT_EQ(plan_with(library.string()).study.variants.back().rig.parent_path(), "rigs");
 }
 
 TEST(StudyRun, FinishedStudyDoesNothing) {
@@ -112,6 +130,23 @@ TEST(StudyRun, AFailedCellIsARowWithItsReason) {
   RunCellsRequest request{folder, {}, kSignature};
   request.retry_failed = true;
   EXPECT_EQ(run_cells(read_plan(folder), request, mock_cell).made, 1);
+}
+
+TEST(StudyRun, KeptRunsLieUnderTheirCellsNames) {
+  const fs::path folder = planned("kept", 2);
+  RunCellsRequest request{folder, {}, kSignature};
+  request.keep_work = true;
+  run_cells(read_plan(folder), request, mock_cell);
+  for (int again = 0; again < 2; ++again) {  // the next run leaves them there
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "work")) {
+      EXPECT_TRUE(fs::exists(cell_file(folder, entry.path().filename().string()))) << entry.path();
+      EXPECT_TRUE(fs::exists(entry.path() / "left behind"));
+      ++count;
+    }
+    EXPECT_EQ(count, cell_count(folder));
+    run_mock(folder);
+  }
 }
 
 TEST(StudyRun, OrderAndSharesChangeNothing) {
@@ -179,6 +214,17 @@ TEST(StudyRun, NumbersOfDifferentProgramsAreNotCompared) {
   EXPECT_NO_THROW(read_results(folder));
 }
 
+TEST(StudyRun, SignatureNamesAllThatNumbersDependOn) {
+  Signature own = program_signature();
+  for (const char* name : {"dressform", "commit", "code", "metrics", "compiler", "opencv", "open3d", "embree"})
+    EXPECT_FALSE(own[name].empty()) << name;
+  Signature other = own;
+  other["commit"] = "another";
+  EXPECT_EQ(difference_of(own, other), "");  // of the same code
+  other["open3d"] = "0.0.0";
+  EXPECT_EQ(difference_of(own, other), "open3d " + own["open3d"] + " and 0.0.0");
+}
+
 TEST(StudyRun, DamagedCellsAreNamed) {
   const fs::path folder = planned("damaged", 2);
   EXPECT_THROW(read_results(folder), InputError);  // nothing there yet
@@ -205,20 +251,32 @@ TEST(StudyRun, MergedStudiesAreTheWhole) {
   EXPECT_THROW(merge_studies(left, {right}), InputError);
 }
 
+TEST(StudyRun, AnotherCommitOfTheSameCodeIsNoOtherProgram) {
+  const fs::path left = planned("commit_left", 2), right = planned("commit_right", 2);
+  for (const auto& [folder, commit] : {std::pair(left, "1a"), std::pair(right, "2b")}) {
+    RunCellsRequest request{folder, {}, kSignature};
+    request.signature["commit"] = commit;
+    run_cells(read_plan(folder), request, mock_cell);
+  }
+  EXPECT_EQ(merge_studies(left, {right}).taken, 0);  // the same numbers
+  const auto cells = cells_of(read_plan(left), left);
+  write_file_atomically(cell_file(left, cells[0].id), read_file_bytes(cell_file(right, cells[0].id)));
+  EXPECT_EQ(read_results(left).signature.at("commit"), "1a and 2b");
+}
+
 TEST(StudyReport, TwelveScenesTellFourDoNot) {
   const fs::path twelve = planned("twelve", 12), four = planned("four", 4);
   for (const auto& folder : {twelve, four}) run_mock(folder);
-  const std::string headline = study_report(read_results(twelve)).headline;
+  const std::string headline = report_of(twelve).headline;
   EXPECT_EQ(headline, "surface <slot>/f_5mm@1 against default: better better; worse failing; equivalent again");
-  EXPECT_EQ(study_report(read_results(four)).headline,
-            "surface <slot>/f_5mm@1 against default: inconclusive better, again, failing");
-  EXPECT_NE(report_markdown(study_report(read_results(four))).find("Fewer than 6 scenes"), std::string::npos);
+  EXPECT_EQ(report_of(four).headline, "surface <slot>/f_5mm@1 against default: inconclusive better, again, failing");
+  EXPECT_NE(report_markdown(report_of(four)).find("Fewer than 6 scenes"), std::string::npos);
 }
 
 TEST(StudyReport, FailuresShowThreeTimes) {
   const fs::path folder = planned("three_ways", 12);
   run_mock(folder);
-  const std::string text = report_markdown(study_report(read_results(folder)));
+  const std::string text = report_markdown(report_of(folder));
   EXPECT_NE(text.find("8 of 12"), std::string::npos);                     // success rate
   EXPECT_NE(text.find("better 3, worse 9, equal 0"), std::string::npos);  // with failures as the worst rank
   EXPECT_NE(text.find("has no clothes"), std::string::npos);
@@ -227,14 +285,13 @@ TEST(StudyReport, FailuresShowThreeTimes) {
 TEST(StudyReport, FetchesNothingAndSaysSecondsOnlyWhereAsked) {
   const fs::path folder = planned("html", 6);
   run_mock(folder);
-  const StudyResults results = read_results(folder);
-  const std::string with = report_html(study_report(results)), without = report_html(study_report(results, false));
+  const std::string with = report_html(report_of(folder)), without = report_html(report_of(folder, false));
   EXPECT_EQ(with.find("http://"), with.find("http://www.w3.org/2000/svg"));  // a name of a format, not an address
   EXPECT_EQ(with.find("https://"), std::string::npos);
   EXPECT_EQ(with.find("<script"), std::string::npos);
   EXPECT_NE(with.find("of baseline"), std::string::npos);
   EXPECT_EQ(without.find("of baseline"), std::string::npos);
-  const std::string csv = results_csv(results);
+  const std::string csv = results_csv(read_results(folder));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 6 * 2);  // variants, scenes, metrics
 }
 

@@ -87,15 +87,47 @@ void read_metrics(TomlSection& section, Study& study) {
     if (!known.insert(metric.text).second) section.fail("", "found the metric " + metric.text + " twice");
 }
 
-void read_variants(TomlSection& section, Study& study) {
+// [variant.mine]: a table of its own below `variant`, or, where [[variant]] tables went before it, in TOML's eyes below
+// the last of these. There it is a variant when it has a command, which no key of a [[variant]] table has.
+using NamedTables = std::vector<std::pair<std::string, const toml::node*>>;
+NamedTables named_tables(const toml::node& node, bool with_command) {
+  NamedTables named;
+  const auto* table = node.as_table();
+  if (!table) return named;
+  for (const auto& [key, value] : *table)
+    if (value.is_table() && (!with_command || value.as_table()->contains("command")))
+      named.push_back({std::string(key.str()), &value});
+  return named;
+}
+
+void read_variants(TomlFiles& files, TomlSection& section, Study& study) {
   std::set<std::string> known;
-  section.children("variant", [&](TomlSection& table) {
-    for (const auto& variant : read_study_variants(table)) {
+  const auto add = [&](TomlSection& table, const std::string& name) {
+    for (const auto& variant : read_study_variants(table, name)) {
       if (!known.insert(variant.name).second)
         table.fail("", "found the variant \"" + variant.name + "\" twice; expected different names");
       study.variants.push_back(variant);
     }
-  });
+  };
+  const auto add_named = [&](const NamedTables& tables) {
+    for (const auto& [name, node] : tables) {
+      TomlSection table(files, *node, "variant." + name);
+      add(table, name);
+      table.finish();
+    }
+  };
+  const toml::node* variants = section.find("variant");
+  if (variants && variants->is_table()) {
+    add_named(named_tables(*variants, false));
+  } else {
+    std::size_t place = 0;
+    section.children("variant", [&](TomlSection& table) {
+      const NamedTables named = named_tables((*variants->as_array())[place++], true);
+      for (const auto& each : named) table.find(each.first.c_str());
+      add(table, "");
+      add_named(named);
+    });
+  }
   if (study.variants.size() < 2)
     section.fail("variant", fmt::format("found {} variants; expected two at least", study.variants.size()));
   study.baseline = study.variants.front().name;
@@ -118,7 +150,7 @@ Study read_study(const fs::path& file) {
   if (!section.has("scenes")) section.fail("", "found no [scenes]; expected files, recordings or drawn scenes");
   section.child("scenes", [&](TomlSection& scenes) { read_scenes(scenes, study); });
   read_metrics(section, study);
-  read_variants(section, study);
+  read_variants(files, section, study);
   section.finish();
   return study;
 }

@@ -106,6 +106,28 @@ TEST(StudyToml, PresetsAreVariants) {
   EXPECT_EQ(study.variants.back().options.variants.at("fill"), "thesis_random31");
 }
 
+TEST(StudyToml, AnotherVariantTakesNothingOfThePreset) {
+  std::ofstream(fs::path(testing::TempDir()) / "set_preset.toml")
+      << "[variants]\nfill = \"random31\"\ncorrect = \"thesis_centroid\"\n"
+         "[set]\nfill.block_px = 15\ncorrect.gap_m = 0.004\n";
+  const Study study = read_text(kTop + kScenes + kPrimary +
+                                "[[variant]]\n[[variant]]\npreset = \"set_preset.toml\"\n"
+                                "stages = {fill = \"reproject\", correct = \"thesis_centroid\"}\n");
+  const auto& options = study.variants[1].options;
+  EXPECT_EQ(options.variants.at("fill"), "reproject");
+  EXPECT_EQ(options.values.count("fill"), 0u) << "the preset's block is not reproject's";
+  EXPECT_EQ(std::get<double>(options.values.at("correct").at("gap_m")), 0.004);
+  EXPECT_NO_THROW(check_options(options));
+}
+
+TEST(StudyToml, ParametersOfASensorAreThoseOfTheOneBeside) {
+  const std::string set = "set.sensor.noise_scale = 2.0\n", none = kScenes + kPrimary + "[[variant]]\n[[variant]]\n";
+  const Study study = read_text(none + "sensor = \"fankhauser\"\n" + set);
+  EXPECT_EQ(study.variants[1].sensor.variant, "fankhauser");
+  EXPECT_EQ(std::get<double>(study.variants[1].sensor.values.at("noise_scale")), 2.0);
+  EXPECT_NE(error_of(none + set).find("set.sensor.noise_scale: found no sensor model beside it"), std::string::npos);
+}
+
 TEST(StudyToml, EveryStudyOfTheLibraryCanBeRead) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(kLibrary / "studies")) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "eval/oracle/oracle.h"
 #include "eval/studies/checked_values.h"
 #include "pipeline/run/preset.h"
 #include "synthetic/sensors/sensor_model.h"
@@ -42,7 +43,7 @@ const toml::table& table_of(const toml::node& node, const std::string& name) {
 }
 
 void take_preset(StudyVariant& variant, const Preset& preset) {
-  for (const auto& [stage, name] : preset.variants) variant.options.variants[stage] = name;
+  for (const auto& [stage, name] : preset.variants) choose_variant(variant.options, stage, name);
   for (const auto& [stage, values] : preset.values)
     for (const auto& [name, value] : values) variant.options.values[stage][name] = value;
 }
@@ -54,8 +55,7 @@ void add_preset_axis(TomlSection& section, std::vector<Axis>& axes) {
   Axis axis;
   for (const auto* each : values_of(*node)) {
     const std::string text = text_of(*each, "preset");
-    const bool is_file = text.find('/') != text.npos || std::filesystem::path(text).extension() == ".toml";
-    const Preset preset = read_preset(is_file ? resolved_path(*each, text).string() : text);
+    const Preset preset = read_preset(is_preset_file(text) ? resolved_path(*each, text).string() : text);
     axis.push_back({preset.name, [preset](StudyVariant& variant) { take_preset(variant, preset); }});
   }
   axes.push_back(axis);
@@ -70,8 +70,9 @@ void add_stage_axes(TomlSection& section, std::vector<Axis>& axes) {
     Axis axis;
     for (const auto* each : values_of(value)) {
       const std::string name = variant_at(*each, stage, text_of(*each, stage.name)).name;
-      axis.push_back({stage.name + "=" + name,
-                      [stage = stage.name, name](StudyVariant& variant) { variant.options.variants[stage] = name; }});
+      axis.push_back({stage.name + "=" + name, [stage = stage.name, name](StudyVariant& variant) {
+                        choose_variant(variant.options, stage, name);
+                      }});
     }
     axes.push_back(axis);
   }
@@ -81,8 +82,10 @@ void add_stage_axes(TomlSection& section, std::vector<Axis>& axes) {
 void set_parameter(StudyVariant& variant, const toml::node& node, const std::string& stage, const std::string& name) {
   const std::string full = "set." + stage + "." + name;
   if (stage == "sensor") {
-    const std::string model = variant.sensor.variant.empty() ? SensorModel::default_variant() : variant.sensor.variant;
-    variant.sensor.variant = model;
+    const std::string& model = variant.sensor.variant;
+    if (model.empty())  // scenes have models of their own, and each model its own parameters
+      throw InputError(where_of(node),
+                       full + ": found no sensor model beside it; expected sensor = \"...\" of the variant");
     variant.sensor.values[name] =
         checked_value(node, full, field_at(node, "sensor " + model, SensorModel::at(model).fields, name));
     return;
@@ -103,7 +106,7 @@ std::string value_word(const toml::node& node) {
   throw InputError(where_of(node), "found a table; expected a number, text, true or false");
 }
 
-// [variant.set.fuse] voxel_m = 0.004 or [0.003, 0.005]; set.sensor are the sensor model's.
+// [variant.set.fuse] voxel_m = 0.004 or [0.003, 0.005]; set.sensor are those of the model that `sensor` names.
 void add_parameter_axes(TomlSection& section, std::vector<Axis>& axes) {
   const toml::node* node = section.find("set");
   if (!node) return;
@@ -147,6 +150,31 @@ void add_file_axis(TomlSection& section, const char* key, std::filesystem::path 
                     [path, file](StudyVariant& variant) { variant.*file = path; }});
   }
   axes.push_back(axis);
+}
+
+// oracle = "open": truth stands in for a stage's result.
+void add_oracle_axis(TomlSection& section, std::vector<Axis>& axes) {
+  const toml::node* node = section.find("oracle");
+  if (!node) return;
+  Axis axis;
+  for (const auto* each : values_of(*node)) {
+    const std::string label = text_of(*each, "oracle");
+    check_oracle(where_of(*each) + ": oracle", label);
+    axis.push_back({"oracle." + label, [label](StudyVariant& variant) { variant.oracles = {label}; }});
+  }
+  axes.push_back(axis);
+}
+
+// One a stage that truth can stand in for, alone.
+std::vector<StudyVariant> all_oracles() {
+  std::vector<StudyVariant> variants;
+  for (const auto& label : oracle_labels()) {
+    StudyVariant variant;
+    variant.name = "oracle." + label;
+    variant.oracles = {label};
+    variants.push_back(variant);
+  }
+  return variants;
 }
 
 void add_scale_axis(TomlSection& section, std::vector<Axis>& axes) {
@@ -195,7 +223,7 @@ std::vector<StudyVariant> one_at_a_time(TomlSection& section) {
       if (entry.name == stage.default_variant || (!picked && !entry.picks.empty())) continue;
       StudyVariant variant;
       variant.name = stage.name + "=" + entry.name;
-      variant.options.variants[stage.name] = entry.name;
+      choose_variant(variant.options, stage.name, entry.name);
       variants.push_back(variant);
     }
   }
@@ -214,10 +242,23 @@ std::vector<StudyVariant> all_presets() {
   return variants;
 }
 
+// A command runs instead of the pipeline, which then has nothing to be told.
+void take_foreign(TomlSection& section, const std::optional<ForeignPipeline>& foreign,
+                  std::vector<StudyVariant>& variants) {
+  if (!foreign) return;
+  for (auto& variant : variants) {
+    if (variant.name == "default") section.fail("name", "is missing; expected a name for what the command runs");
+    if (!variant.options.variants.empty() || !variant.options.values.empty() || !variant.oracles.empty())
+      section.fail("command",
+                   "found it beside a preset, stages, set or oracle; expected it without them (sensor, rig, scan, "
+                   "scale and set.sensor are the capture's)");
+    variant.foreign = foreign;
+  }
+}
+
 }  // namespace
 
-std::vector<StudyVariant> read_study_variants(TomlSection& section) {
-  std::string name;
+std::vector<StudyVariant> read_study_variants(TomlSection& section, std::string name) {
   bool each_alone = false;
   section("name", name, {}, "");
   section("one_at_a_time", each_alone, "");
@@ -225,6 +266,10 @@ std::vector<StudyVariant> read_study_variants(TomlSection& section) {
   bool every_preset = false;
   section("every_preset", every_preset, "");
   if (every_preset) return all_presets();
+  bool every_oracle = false;
+  section("every_oracle", every_oracle, "");
+  if (every_oracle) return all_oracles();
+  const std::optional<ForeignPipeline> foreign = read_foreign_pipeline(section);
   std::vector<Axis> axes;
   add_preset_axis(section, axes);
   add_stage_axes(section, axes);
@@ -233,12 +278,14 @@ std::vector<StudyVariant> read_study_variants(TomlSection& section) {
   add_file_axis(section, "rig", &StudyVariant::rig, axes);
   add_file_axis(section, "scan", &StudyVariant::scan, axes);
   add_scale_axis(section, axes);
+  add_oracle_axis(section, axes);
   std::size_t count = 1;
   for (const auto& axis : axes)
     if ((count *= axis.size()) > kMostVariants)
       section.fail("", fmt::format("found more than {} combinations; expected a smaller grid", kMostVariants));
   std::vector<StudyVariant> variants;
   for (std::size_t place = 0; place < count; ++place) variants.push_back(combination(axes, name, place));
+  take_foreign(section, foreign, variants);
   return variants;
 }
 

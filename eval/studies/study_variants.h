@@ -8,6 +8,7 @@ namespace dressform {
 
 // The variants that one [[variant]] table stands for: several where a value is an array (all combinations), or where
 // one_at_a_time asks for every registered variant of every stage beside the default, or every_preset for all presets.
-std::vector<StudyVariant> read_study_variants(TomlSection& section);
+// `name`: what they are called where the table does not say.
+std::vector<StudyVariant> read_study_variants(TomlSection& section, std::string name = {});
 
 }  // namespace dressform

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -101,7 +102,7 @@ class Pairing {
 Vector6d solve_twist(Matrix6d matrix, const Vector6d& vector) {
   constexpr double kDamping = 1e-9;  // keeps what no point holds where it is, and moves nothing else
   matrix.diagonal().array() += kDamping * matrix.trace();
-  return matrix.ldlt().solve(vector);
+  return solve_symmetric(matrix, vector);
 }
 
 bool negligible(const Vector6d& twist, double rotation_rad, double translation_m) {
@@ -114,6 +115,21 @@ Isometry3d exponential(const Vector6d& twist) {
   if (angle > 1e-12) result.linear() = Eigen::AngleAxisd(angle, twist.head<3>() / angle).toRotationMatrix();
   result.translation() = twist.tail<3>();
   return result;
+}
+
+Vector6d motion_at(const Isometry3d& motion, const Vector3d& centre) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  Vector6d step;
+  step << turn.angle() * turn.axis(), motion * centre - centre;
+  return step;
+}
+
+Isometry3d motion_about(const Vector6d& step, const Vector3d& centre) {
+  Isometry3d motion = Isometry3d::Identity();
+  if (const double angle = step.head<3>().norm(); angle > 0)
+    motion.linear() = Eigen::AngleAxisd(angle, step.head<3>() / angle).toRotationMatrix();
+  motion.translation() = centre + step.tail<3>() - motion.linear() * centre;
+  return motion;
 }
 
 PairEquations pair_equations(const DepthMap& from, const std::vector<int>& samples, const DepthMap& to,

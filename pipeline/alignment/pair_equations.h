@@ -36,6 +36,11 @@ bool negligible(const Vector6d& twist, double rotation_rad, double translation_m
 // exp of a twist (rotation vector, translation) as a rigid motion.
 Isometry3d exponential(const Vector6d& twist);
 
+// A rigid motion as a rotation vector and what it does to a point, and back. Unlike exp's, the translation does not
+// depend on how far the frame's origin is.
+Vector6d motion_at(const Isometry3d& motion, const Vector3d& centre);
+Isometry3d motion_about(const Vector6d& step, const Vector3d& centre);
+
 // Solution of damped normal equations: a twist.
 Vector6d solve_twist(Matrix6d matrix, const Vector6d& vector);
 

@@ -1,9 +1,15 @@
 #include "pipeline/body/section_tracks.h"
 
 #include <algorithm>
+#include <array>
 
 namespace dressform {
 namespace {
+
+// Where the two legs are looked for, of the stature, in turn: above feet, shoes and ankles, which may touch, and below
+// the knees; the lowest last, for a body whose calves are one piece.
+constexpr std::array kAboveAnkles{0.14, 0.20, 0.26, 0.10};
+constexpr int kHighestFork_tenths = 7;  // of the stature: thighs that are not one piece below it are no legs
 
 // The largest loop of `level` that overlaps `loop`, or -1.
 int follow(const Sections& sections, const SectionLoop& loop, int level) {
@@ -38,12 +44,12 @@ bool overlap(const SectionLoop& a, const SectionLoop& b) {
 LegTracks find_legs(const Sections& sections) {
   LegTracks legs;
   const int count = static_cast<int>(sections.levels.size());
-  for (const double part : {0.14, 0.20, 0.26, 0.10}) {
+  for (const double part : kAboveAnkles) {
     const int start = static_cast<int>(part * count);
     if (start >= count || sections.levels[start].size() < 2) continue;
     LoopIndex at[2] = {{start, 0}, {start, 1}};
     for (int k = 0; k < 2; ++k) legs.tracks[k] = track_down(sections, at[k]);
-    for (int level = start + 1; level < count * 7 / 10; ++level) {
+    for (int level = start + 1; level < count * kHighestFork_tenths / 10; ++level) {
       int next[2];
       for (int k = 0; k < 2; ++k) next[k] = follow(sections, sections.levels[at[k].first][at[k].second], level);
       if (next[0] < 0 || next[1] < 0) break;

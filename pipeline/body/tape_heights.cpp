@@ -18,7 +18,8 @@ constexpr double kArmpitFrom = 0.64, kArmpitTo = 0.86;  // searched for the join
 constexpr double kNeckFrom = 0.825, kUsualNeck = 0.862, kNeckTo = 0.905, kNeckStep = 0.005;
 
 constexpr double kBand_m = 0.02;  // girths are means over so much to either side
-constexpr double kStep = 0.01;    // of the way between two landmarks
+constexpr double kBandStep_m = 0.01;
+constexpr double kStep = 0.01;  // of the way between two landmarks
 
 // Pulls towards where people have the landmark, as a factor 1 +- pull (t - usual)^2 on girth: they decide where the
 // trunk is as wide all along.
@@ -33,7 +34,7 @@ constexpr int kChestLevels = 40;
 double mean_girth_near(const StandingBody& body, double y) {
   double sum = 0;
   int count = 0;
-  for (double d = -kBand_m; d < kBand_m + 0.001; d += 0.01)
+  for (double d = -kBand_m; d < kBand_m + kBandStep_m / 10; d += kBandStep_m)
     if (const auto outline = body.outline_at(y + d); !outline.trunk.points.empty())
       sum += tape_girth(outline.trunk), ++count;
   return count ? sum / count : std::numeric_limits<double>::infinity();

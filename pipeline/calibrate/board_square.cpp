@@ -7,6 +7,7 @@
 
 #include "pipeline/calibrate/board_adjustment.h"
 #include "scenes/error.h"
+#include "scenes/length_units.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -16,6 +17,8 @@ constexpr double kDepthError = 0.1;  // of the distance: an offset of 30 mm at 0
 // Of the ratio from view to view, relative: a wrong square changes all views alike; depth of something else than the
 // board, or of a mirrored image, does not.
 constexpr double kLargestScatter = 0.05;
+// Of a ratio and what explains it, log: beyond the error of depth, well within the step from one unit to the next.
+constexpr double kAlike = 0.15;
 constexpr double kSigmas = 5;        // of the ratio, for a contradiction
 constexpr double kSureFocal = 0.05;  // relative sigma up to which the corners alone fix the focal length
 // Focal lengths over the width of depth cameras: 28 to 127 degrees of view.
@@ -33,10 +36,11 @@ SensorBoards in_infrared(const SensorBoards& boards, bool depth) {
 }
 
 std::string likely_unit(double ratio) {
-  const auto near = [&](double factor) { return std::abs(std::log(ratio / factor)) < 0.15; };
-  if (near(0.001)) return " (looks like millimetres)";
-  if (near(0.01)) return " (looks like centimetres)";
-  if (near(0.0254)) return " (looks like inches)";
+  const auto near = [&](double factor) { return std::abs(std::log(ratio / factor)) < kAlike; };
+  for (const char* name : {"mm", "cm", "inch"}) {
+    const LengthUnit& unit = length_unit(name);
+    if (near(unit.metres)) return std::string(" (looks like ") + unit.plural + ")";
+  }
   if (near(0.1) || near(10)) return " (looks like a decimal place)";
   if (near(0.5) || near(2)) return " (looks like two squares taken for one, or one for two)";
   return "";

@@ -10,6 +10,7 @@
 #include "pipeline/testing/figure.h"
 #include "scenes/error.h"
 #include "scenes/serialize.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -30,9 +31,9 @@ TEST(Sleeves, EndWhereTheGarmentNoLongerEnclosesTheArm) {
   const Landmarks limbs = find_landmarks(make_figure({}));
   ASSERT_TRUE(limbs.left_arm);
   const Mesh upright = make_tube(0.07, 0, 0.30).mesh;  // along +y
-  const auto onto = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), limbs.left_arm->direction);
+  const auto onto = rotation_between(Vector3d::UnitY(), limbs.left_arm->direction);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = onto.matrix();
+  motion.linear() = onto;
   motion.translation() = limbs.left_arm->root;
   const auto ends = sleeve_ends(transformed(upright, motion.matrix()), limbs);
   EXPECT_NEAR(ends[0], 0.30, 0.05);
@@ -130,7 +131,7 @@ TEST(Correct, EveryVariantPushesOutwardsAndRepeats) {
 // A tube 0.25 m long about the arm's axis, from its root on, then shifted.
 TexturedMesh sleeve_of(const Limb& arm, double radius_m, const Vector3d& shift) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), arm.direction).matrix();
+  motion.linear() = rotation_between(Vector3d::UnitY(), arm.direction);
   motion.translation() = arm.root + shift;
   TexturedMesh sleeve = make_tube(radius_m, 0, 0.25);
   sleeve.mesh = transformed(sleeve.mesh, motion.matrix());

@@ -1,9 +1,8 @@
 // The thesis's correction (section 3.6): the nearest centroid of the body's faces says by its normal whether a vertex
 // of cloth is inside. Its text pushes along the vector from the centroid to the vertex, which leads deeper; here the
 // vertex goes out along the normal, to the wanted distance from the face's plane.
-#include <nanoflann.hpp>
-
 #include "pipeline/correct/correct_result.h"
+#include "pipeline/geometry/point_tree.h"
 
 namespace dressform {
 namespace {
@@ -28,25 +27,17 @@ struct Faces {
       normals.push_back(normal.normalized());
     }
   }
-  std::size_t kdtree_get_point_count() const { return centroids.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return centroids[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Faces>, Faces, 3>;
 
 CorrectedGarments thesis_centroid(const KnownBody& user, const FittedGarments& fitted,
                                   const ThesisCentroidParams& params) {
   require_user(user, "correct.thesis_centroid");
   const Faces faces(user.body);
-  Tree tree(3, faces);
-  tree.buildIndex();
+  const PointTree tree(faces.centroids);
   return each_vertex_moved(user, fitted, [&](const Vector3d& p) -> Vector3d {
     std::uint32_t nearest = 0;
     double squared_distance = 0;
-    if (tree.knnSearch(p.data(), 1, &nearest, &squared_distance) == 0) return p;
+    if (!tree.nearest(p, nearest, squared_distance)) return p;
     const double height = faces.normals[nearest].dot(p - faces.centroids[nearest]);
     return height < 0 ? Vector3d(p + (params.gap_m - height) * faces.normals[nearest]) : p;
   });

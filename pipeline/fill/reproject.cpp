@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <opencv2/photo.hpp>
 #include <vector>
 
 #include "pipeline/fill/fill_views.h"
+#include "pipeline/fill/garment_inpaint.h"
 
 namespace dressform {
 namespace {
@@ -21,6 +21,8 @@ void fields(V& v, ReprojectParams& p) {
   v("agree_mm", p.agree_mm, 1, 200, "mm", "another view sees the same surface when depths differ by less");
   v("inpaint_px", p.inpaint_px, 1, 30, "px", "radius of inpainting where no view sees the surface");
 }
+
+constexpr int kMargin_px = 12;  // round the hole, from which colours flow in
 
 struct Candidate {
   cv::Vec3b color{0, 0, 0};
@@ -66,9 +68,7 @@ cv::Vec3d gain(const GarmentView& view, const GarmentView& other) {
 cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, const ReprojectParams& params) {
   const GarmentView& view = views[index];
   cv::Mat color = view.garment.color.clone();
-  // Inpainting must take its colours from well inside the garment, not from the arm beside the hole.
-  cv::Mat hole = view.garment.mask == 128, inside;
-  cv::erode(view.garment.mask == 255, inside, cv::Mat(), {-1, -1}, 2);
+  cv::Mat hole = view.garment.mask == 128, inside = well_inside(view.garment);
   std::vector<cv::Vec3d> gains;
   for (const GarmentView& other : views) gains.push_back(other.labels.empty() ? cv::Vec3d(1, 1, 1) : gain(view, other));
   for (int y = 0; y < color.rows; ++y) {
@@ -88,16 +88,11 @@ cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, const Re
       }
     }
   }
-  if (cv::countNonZero(hole) == 0) return color;
-  const int margin = 12;
-  const cv::Rect tight = cv::boundingRect(hole);
-  const cv::Rect box =
-      cv::Rect(tight.x - margin, tight.y - margin, tight.width + 2 * margin, tight.height + 2 * margin) &
-      cv::Rect({0, 0}, color.size());
-  cv::Mat inpainted;
-  cv::inpaint(color(box), inside(box) == 0, inpainted, params.inpaint_px, cv::INPAINT_TELEA);
-  inpainted.copyTo(color(box), hole(box));
-  return color;
+  return inpainted_from(color, hole, inside, kMargin_px, [&](const cv::Mat& bgr, const cv::Mat& unknown) {
+    cv::Mat inpainted;
+    cv::inpaint(bgr, unknown, inpainted, params.inpaint_px, cv::INPAINT_TELEA);
+    return inpainted;
+  });
 }
 
 FilledViews reproject(const CaptureSession& session, const Calibration& calibration, const KnownBody& naked,

@@ -21,22 +21,11 @@ void fields(V& v, ThesisRandomParams& p) {
     "make up depth for what an arm hides in a picked region; the thesis fills in colours alone");
 }
 
-// A picked region at the size of the sensor's colour image; empty where there is none of that name.
-cv::Mat region_named(const Picks& picks, const std::string& name, const cv::Size& size) {
-  const auto found = picks.regions.find(name);
-  if (found == picks.regions.end()) return {};
-  const cv::Mat& region = found->second;
-  if (region.size() != size)
-    throw InputError("picks/" + name, fmt::format("found {} x {} pixels; expected the {} x {} of the colour image",
-                                                  region.cols, region.rows, size.width, size.height));
-  return region;
-}
-
 cv::Mat paint(const std::vector<GarmentView>& views, std::size_t index, const Picks& picks, Seed seed) {
   const GarmentView& view = views[index];
   const std::string garment = view.label == Label::top ? "top" : "bottom";
   const std::string name = "smooth_" + garment + "_" + view.sensor;
-  const cv::Mat lends = region_named(picks, name, view.garment.color.size());
+  const cv::Mat lends = picked_region(picks, name, view.garment.color.size());
   if (lends.empty() || cv::countNonZero(lends) == 0)
     throw InputError("picks/" + name, fmt::format("found {}; expected the smooth block of cloth (31 x 31 pixels in the "
                                                   "thesis) that lends its colours to picks/region_{}_{}",
@@ -51,7 +40,7 @@ FilledViews thesis_random31(const CaptureSession& session, const Calibration& ca
                             const ThesisRandomParams& params, const Picks& picks, Seed seed) {
   const PickedHoles holes{[&](const std::string& slot, const std::string& sensor) {
                             const Camera& camera = calibration.sensors.at(sensor).color.value();
-                            return region_named(picks, "region_" + slot + "_" + sensor, {camera.width, camera.height});
+                            return picked_region(picks, "region_" + slot + "_" + sensor, {camera.width, camera.height});
                           },
                           params.fill_depth};
   return fill_views(

@@ -43,14 +43,23 @@ Mesh moved(const Mesh& mesh, std::vector<Vector3d> vertices) {
   return result;
 }
 
-RbfField field_of(const std::vector<ControlPair>& pairs, bool with_arms, const BodyWarpParams& params) {
+RbfField field_of(const std::vector<ControlPair>& pairs, const BodyWarpParams& params) {
+  std::vector<Vector3d> controls, targets;
+  for (const auto& pair : pairs) {
+    controls.push_back(pair.control);
+    targets.push_back(pair.target);
+  }
+  return RbfField(controls, targets, params.kernel, params.smoothing, params.radius_m);
+}
+
+SpaceMap map_of(const std::vector<ControlPair>& pairs, bool with_arms, const MakeMap& make) {
   std::vector<Vector3d> controls, targets;
   for (const auto& pair : pairs) {
     if (!with_arms && is_arm(pair.part)) continue;
     controls.push_back(pair.control);
     targets.push_back(pair.target);
   }
-  return RbfField(controls, targets, params.kernel, params.smoothing);
+  return make(controls, targets);
 }
 
 // Places on the user for points of the naked body, where snapping is plausible both ways.
@@ -80,17 +89,30 @@ std::vector<ControlPair> snapped_pairs(const StandingBody& naked, const std::vec
 
 }  // namespace
 
-BodyWarp warp_body(const StandingBody& naked, const MeshQuery& naked_surface, const StandingBody& user,
-                   const MeshQuery& user_surface, const BodyWarpParams& params) {
+std::vector<ControlPair> body_pairs(const StandingBody& naked, const MeshQuery& naked_surface, const StandingBody& user,
+                                    const MeshQuery& user_surface, const BodyWarpParams& params) {
   const auto landmarks = landmark_pairs(naked, naked_surface, user, user_surface, params.pairs);
   const auto points = spread_points(naked, params.snap_spacing_m);
   std::vector<ControlPair> pairs = landmarks;
   for (int round = 0; round < params.rounds; ++round) {
-    const auto snapped = snapped_pairs(naked, points, field_of(pairs, true, params), user_surface, params);
+    const auto snapped = snapped_pairs(naked, points, field_of(pairs, params), user_surface, params);
     pairs = landmarks;
     pairs.insert(pairs.end(), snapped.begin(), snapped.end());
   }
-  return {field_of(pairs, true, params), field_of(pairs, false, params), static_cast<int>(pairs.size())};
+  return pairs;
+}
+
+BodyWarp warp_through(const std::vector<ControlPair>& pairs, const MakeMap& make) {
+  return {map_of(pairs, true, make), map_of(pairs, false, make), static_cast<int>(pairs.size())};
+}
+
+BodyWarp warp_body(const StandingBody& naked, const MeshQuery& naked_surface, const StandingBody& user,
+                   const MeshQuery& user_surface, const BodyWarpParams& params) {
+  return warp_through(body_pairs(naked, naked_surface, user, user_surface, params),
+                      [&](const std::vector<Vector3d>& controls, const std::vector<Vector3d>& targets) {
+                        const RbfField field(controls, targets, params.kernel, params.smoothing, params.radius_m);
+                        return SpaceMap([field](const Vector3d& point) { return field(point); });
+                      });
 }
 
 std::vector<double> diffused_weights(const Mesh& mesh, std::vector<double> weights, int rounds) {

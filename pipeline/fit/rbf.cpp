@@ -21,6 +21,7 @@ constexpr double kEaseStep_m = 0.01;  // of radius a round, at most
 struct RbfParams {
   std::string kernel = "r";
   double smoothing_m = 0.02;
+  double radius_m = 0.3;
   int rounds = 2;
   double snap_spacing_m = 0.06;
   double keep_offset = 1;
@@ -28,8 +29,10 @@ struct RbfParams {
 };
 template <class V>
 void fields(V& v, RbfParams& p) {
-  v("kernel", p.kernel, {"r", "r3"}, "radial basis function beside the affine part");
-  v("smoothing_m", p.smoothing_m, 0.0, 1.0, "m", "how much the map may miss its targets for smoothness");
+  v("kernel", p.kernel, {"r", "r3", "gaussian", "wendland"}, "radial basis function beside the affine part");
+  v("smoothing_m", p.smoothing_m, 0.0, 1.0, "m",
+    "how much the map may miss its targets for smoothness; of kernels that fall off, a part of their height");
+  v("radius_m", p.radius_m, 0.02, 5.0, "m", "where a Gaussian has fallen to 1/e, and Wendland's function ends");
   v("rounds", p.rounds, 0, 5, "", "of snapping the warped body to the user's surface");
   v("snap_spacing_m", p.snap_spacing_m, 0.03, 0.2, "m", "between the body's points that are snapped");
   v("keep_offset", p.keep_offset, 0.0, 1.0, "",
@@ -37,10 +40,17 @@ void fields(V& v, RbfParams& p) {
   v("ease_rounds", p.ease_rounds, 0, 10, "", "of measuring girths round the trunk and moving cloth to keep the ease");
 }
 
+RbfField::Kernel kernel_named(const std::string& name) {
+  if (name == "gaussian") return RbfField::Kernel::gaussian;
+  if (name == "wendland") return RbfField::Kernel::wendland;
+  return name == "r" ? RbfField::Kernel::linear : RbfField::Kernel::cubic;
+}
+
 BodyWarpParams warp_params(const RbfParams& params) {
   BodyWarpParams result;
-  result.kernel = params.kernel == "r" ? RbfField::Kernel::linear : RbfField::Kernel::cubic;
+  result.kernel = kernel_named(params.kernel);
   result.smoothing = params.smoothing_m;
+  result.radius_m = params.radius_m;
   result.rounds = params.rounds;
   result.snap_spacing_m = params.snap_spacing_m;
   return result;

@@ -42,8 +42,13 @@ Pairs merged(const std::vector<Vector3d>& controls, const std::vector<Vector3d>&
   return pairs;
 }
 
-// Conditionally positive definite: -r, r^3 and r^2 log r.
-double basis(RbfField::Kernel kernel, double r_squared) {
+// Conditionally positive definite: -r, r^3 and r^2 log r; positive definite: those that fall off.
+double basis(RbfField::Kernel kernel, double r_squared, double radius_m) {
+  if (kernel == RbfField::Kernel::gaussian) return std::exp(-r_squared / (radius_m * radius_m));
+  if (kernel == RbfField::Kernel::wendland) {
+    const double q = std::sqrt(r_squared) / radius_m, rest = std::max(0.0, 1 - q);
+    return rest * rest * rest * rest * (4 * q + 1);
+  }
   if (kernel == RbfField::Kernel::thin_plate) return r_squared > 0 ? 0.5 * r_squared * std::log(r_squared) : 0;
   const double r = std::sqrt(r_squared);
   return kernel == RbfField::Kernel::linear ? -r : r_squared * r;
@@ -52,8 +57,8 @@ double basis(RbfField::Kernel kernel, double r_squared) {
 }  // namespace
 
 RbfField::RbfField(const std::vector<Vector3d>& controls, const std::vector<Vector3d>& targets, Kernel kernel,
-                   double smoothing)
-    : kernel_(kernel) {
+                   double smoothing, double radius_m)
+    : kernel_(kernel), radius_m_(radius_m) {
   if (controls.size() != targets.size()) throw std::invalid_argument("RbfField: as many targets as controls");
   const Pairs pairs = merged(controls, targets);
   if (pairs.centers.empty()) return;
@@ -83,7 +88,7 @@ void RbfField::solve(const std::vector<Vector3d>& displacements, double smoothin
   }
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 4, n + 4);
   tbb::parallel_for(0, n, [&](int i) {
-    for (int j = 0; j < n; ++j) system(j, i) = basis(kernel_, (centers_[i] - centers_[j]).squaredNorm());
+    for (int j = 0; j < n; ++j) system(j, i) = basis(kernel_, (centers_[i] - centers_[j]).squaredNorm(), radius_m_);
     system(i, i) += smoothing;
   });
   system.block(0, n, n, 4) = polynomial;
@@ -97,7 +102,7 @@ void RbfField::solve(const std::vector<Vector3d>& displacements, double smoothin
 Vector3d RbfField::operator()(const Vector3d& point) const {
   Vector3d moved = point + affine_.leftCols<3>() * (point - origin_) + affine_.col(3);
   for (std::size_t i = 0; i < centers_.size(); ++i)
-    moved += basis(kernel_, (point - centers_[i]).squaredNorm()) * weights_[i];
+    moved += basis(kernel_, (point - centers_[i]).squaredNorm(), radius_m_) * weights_[i];
   return moved;
 }
 

@@ -50,6 +50,12 @@ std::vector<Vector3d> points_in(const Picks& picks, const std::string& name, con
   return points;
 }
 
+// How many frames the points of a name were picked in: what their places are does not say how the frames follow.
+std::size_t parts_of(const Picks& picks, const std::string& name) {
+  const auto found = picks.points.find(name);
+  return found == picks.points.end() ? 0 : found->second.size();
+}
+
 struct PickedPairs {
   std::vector<Vector3d> controls, targets;  // in the model's frame, in the user's
 };
@@ -58,11 +64,16 @@ PickedPairs picked_pairs(const Picks& picks) {
   const std::string where = "picks/model/control and picks/user/target";
   const std::string how =
       ": pick control on naked_body.ply and target on user_body.ply of a run with MeshLab (PickPoints), the same "
-      "places "
-      "in the same order (scenes/README.md, \"Picks\")";
+      "places in the same order (scenes/README.md, \"Picks\")";
   if (pairs.controls.size() != pairs.targets.size())
     throw InputError(where, "found " + std::to_string(pairs.controls.size()) + " control points and " +
                                 std::to_string(pairs.targets.size()) + " targets; expected one for each" + how);
+  if (parts_of(picks, "control") > 1 && parts_of(picks, "target") > 1)
+    throw InputError(where, "found control points in " + std::to_string(parts_of(picks, "control")) +
+                                " frames and targets in " + std::to_string(parts_of(picks, "target")) +
+                                ", so that their order says nothing of which belong together; expected one frame of "
+                                "one of them" +
+                                how);
   if (pairs.controls.size() < kFewestPairs)
     throw InputError(where, "found " + std::to_string(pairs.controls.size()) + " pairs; expected at least " +
                                 std::to_string(kFewestPairs) + ", the thesis has 200" + how);

@@ -129,5 +129,22 @@ TEST(ThesisRbf, PairsThatAreNoneAreNamed) {
   EXPECT_THAT(complaint(input, {}), HasSubstr("found 0 pairs"));
 }
 
+// Points that came in several frames, as those of several sensors do, follow one another as the frames happen to.
+TEST(ThesisRbf, PairsOfSeveralFramesOnBothSidesAreRefused) {
+  const PickedTry& input = broader();
+  Picks picks = input.picks;
+  const auto halved = [&](const char* name) {
+    auto& parts = picks.points[name];
+    PickedPoints rest = parts[0];
+    rest.points.erase(rest.points.begin(), rest.points.begin() + 100);
+    parts[0].points.resize(100);
+    parts.push_back(rest);
+  };
+  halved("control");
+  EXPECT_EQ(to_bytes(run(input, picks)), to_bytes(run(input, input.picks)));
+  halved("target");
+  EXPECT_THAT(complaint(input, picks), HasSubstr("control points in 2 frames and targets in 2"));
+}
+
 }  // namespace
 }  // namespace dressform

@@ -29,7 +29,6 @@ class BlockVolume {
   BlockVolume(const ScanFrames& frames, const Camera& camera, const std::vector<Isometry3d>& model_from_frame,
               const std::vector<char>& used, const VolumeRegion& region, const VolumeOptions& options);
 
-  std::size_t blocks() const { return keys_.size(); }
   // Points where the distance changes sign between neighbouring voxels, with normals along the gradient; one for each
   // voxel that has any. `least_observations`: frames that must have seen both voxels.
   PointCloud surface_points(int least_observations) const;

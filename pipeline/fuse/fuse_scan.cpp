@@ -8,6 +8,7 @@
 
 #include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -93,7 +94,7 @@ std::optional<Eigen::Vector4d> floor_plane(const ScanFrames& frames, const Track
 Isometry3d model_from_world(const Track& track, const std::optional<Eigen::Vector4d>& floor) {
   const Vector3d up = floor ? Vector3d(floor->head<3>()) : mean_up(track), axis = axes_crossing(track);
   Isometry3d model = Isometry3d::Identity();
-  model.linear() = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitY()).toRotationMatrix();
+  model.linear() = rotation_between(up, Vector3d::UnitY());
   double height = 0;
   if (floor) {
     height = up.dot(axis) + (*floor)[3];

@@ -22,8 +22,6 @@ class ModelVolume {
   // rays: normalized_grid of `grid`.
   DepthMap ray_cast(const Camera& grid, const cv::Mat& rays, const Isometry3d& world_from_frame) const;
 
-  std::size_t blocks() const { return blocks_.size(); }
-
  private:
   using Cell = VoxelBlock::Cell;
   struct Range {

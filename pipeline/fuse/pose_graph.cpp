@@ -12,6 +12,8 @@ struct PoseGraphParams {
 };
 
 constexpr double kWideCosine = 0.8, kNarrowCosine = 0.85;  // least agreement of the normals of a pair, at each width
+// Of the points, at each width: a million pairs hold six hundred unknowns; the first width only brings frames near.
+constexpr int kWideStride = 4, kNarrowStride = 2;
 
 template <class V>
 void fields(V& v, PoseGraphParams& p) {
@@ -30,8 +32,8 @@ BodyModel pose_graph(const DepthScan& scan, const SensorCalibration& calibration
   const auto follow = [&](const ScanFrames& frames, const Projector& projector) {
     Track track = close_loop(frames, projector, track_odometry(frames, projector));
     const auto pairs = overlapping_pairs(track, params.pairs_per_frame, params.largest_angle_deg);
-    const std::vector<CorrespondenceRejector> gates{{params.wide_m, kWideCosine, 1},
-                                                    {params.narrow_m, kNarrowCosine, 1}};
+    const std::vector<CorrespondenceRejector> gates{{params.wide_m, kWideCosine, kWideStride},
+                                                    {params.narrow_m, kNarrowCosine, kNarrowStride}};
     const GlobalAlignment all = align_all(frames, projector, pairs, track.world_from_frame, gates, params.iterations);
     track.world_from_frame = all.world_from_frame;
     track.residual_rms_m = all.residual_rms_m;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -225,7 +226,7 @@ Vector3d axes_crossing(const Track& track) {
     matrix += across + kNoCrossing * Eigen::Matrix3d::Identity();
     vector += across * track.world_from_frame[i].translation() + kNoCrossing * ahead;
   }
-  return matrix.ldlt().solve(vector);
+  return solve_symmetric(matrix, vector);
 }
 
 }  // namespace dressform

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/geometry/submesh.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -17,9 +18,8 @@ constexpr double kArmSeam_m = 0.02;        // ... and this far below the armpit 
 double lower_end(std::vector<double> values) {
   const std::size_t strays = std::max<std::size_t>(4, static_cast<std::size_t>(kEndPart * values.size()));
   if (values.empty()) return 0;
-  const auto at = values.begin() + std::min(values.size() - 1, strays);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  const std::size_t last = values.size() - 1;
+  return nth_value(std::move(values), std::min(last, strays));
 }
 
 double upper_end(std::vector<double> values) {

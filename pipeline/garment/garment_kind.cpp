@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -23,10 +25,7 @@ constexpr double kLeastHalf_m = 0.03;     // of the distance between the legs
 struct Front {
   std::vector<double> values;
   bool known() const { return values.size() >= kLeastPoints; }
-  double median() {
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-  }
+  double middle() const { return median(values); }
 };
 
 struct Slab {
@@ -43,10 +42,10 @@ std::optional<bool> spans_legs(Slab& slab) {
   for (const int side : {0, 1}) {
     if (!slab.legs[side].known()) continue;
     ++known;
-    legs += slab.legs[side].median();
+    legs += slab.legs[side].middle();
     if (!slab.middle[side].known()) continue;
-    middle += slab.middle[side].median();
-    span |= slab.middle[side].median() > slab.legs[side].median() - kValley_m;
+    middle += slab.middle[side].middle();
+    span |= slab.middle[side].middle() > slab.legs[side].middle() - kValley_m;
   }
   if (span || (known > 0 && middle > kThick * legs)) return true;
   if (known == 2 || (known == 1 && middle < kDeep * legs)) return false;
@@ -85,6 +84,13 @@ LegVotes leg_votes(const std::vector<Vector3d>& points, const Landmarks& landmar
   return votes;
 }
 
+GarmentLayout with_kind(GarmentLayout layout, const FoundKind& found, const Landmarks& landmarks) {
+  layout.kind = found.kind;
+  layout.sure_kind = found.sure;
+  for (int side = 0; side < 2; ++side) layout.legs[side].covered = landmarks.leg(side) && layout.forked();
+  return layout;
+}
+
 FoundKind bottom_kind(const std::vector<Vector3d>& points, const Landmarks& landmarks) {
   if (!landmarks.left_leg || !landmarks.right_leg) return {"skirt", 0};  // legs that are not apart
   const LegVotes votes = leg_votes(points, landmarks);
@@ -96,9 +102,9 @@ FoundKind top_kind(const std::vector<Vector3d>& points, const Landmarks& landmar
   std::vector<double> heights;
   for (const Vector3d& p : points) heights.push_back(p.y());
   if (heights.empty()) return {"shirt", 0};
-  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / kLowStrays);
-  std::nth_element(heights.begin(), low, heights.end());
-  const double hand = kBelowCrotch * landmarks.stature, below = landmarks.crotch_y - *low;
+  const std::size_t strays = heights.size() / kLowStrays;
+  const double hand = kBelowCrotch * landmarks.stature,
+               below = landmarks.crotch_y - nth_value(std::move(heights), strays);
   return {below > hand ? "dress" : "shirt", std::clamp(std::abs(below - hand) / hand, 0.0, 1.0)};
 }
 

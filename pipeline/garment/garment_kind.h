@@ -22,6 +22,9 @@ struct FoundKind {
   double sure = 0;
 };
 
+// The layout of that kind: its legs are covered where it has any.
+GarmentLayout with_kind(GarmentLayout layout, const FoundKind& found, const Landmarks& landmarks);
+
 // "trousers" or "skirt" from points of the lower garment. A body whose legs are not apart wears a skirt.
 FoundKind bottom_kind(const std::vector<Vector3d>& points, const Landmarks& landmarks);
 

@@ -66,6 +66,19 @@ TEST(BottomKind, OneSideTells) {
   }
 }
 
+TEST(WithKind, TrousersCoverTheLegsThatAreThere) {
+  GarmentLayout layout;
+  layout.top_y = 1;
+  Landmarks one_leg = standing();
+  one_leg.right_leg.reset();
+  const GarmentLayout trousers = with_kind(layout, {"trousers", 0.7}, one_leg);
+  EXPECT_TRUE(trousers.legs[0].covered);
+  EXPECT_FALSE(trousers.legs[1].covered);
+  EXPECT_EQ(trousers.sure_kind, 0.7);
+  EXPECT_EQ(trousers.top_y, 1);
+  EXPECT_FALSE(with_kind(trousers, {"skirt", 1}, standing()).legs[0].covered);
+}
+
 TEST(TopKind, ADressHangsBelowTheCrotch) {
   std::vector<Vector3d> points;
   add_tube(0, 0.24, 0.20, 0.02, 5, 0.3, points);  // down to y = 0.35

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "pipeline/geometry/sector.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -41,8 +42,7 @@ double median_off_body(const std::vector<Point>& sector, double low, double high
   for (const Point& p : sector)
     if (p.y > low && p.y < high) off.push_back(naked.signed_distance(*p.place));
   if (off.size() < 3) return std::numeric_limits<double>::quiet_NaN();
-  std::nth_element(off.begin(), off.begin() + off.size() / 2, off.end());
-  return off[off.size() / 2];
+  return median(std::move(off));
 }
 
 // How much further off the body the bottom lies than the top above it; not a number where they do not meet.
@@ -71,8 +71,7 @@ WornOrder worn_order(const PointCloud& top, const PointCloud& bottom, const Mesh
   if (leads.size() < kFewestSectors) return {Worn::over, 0};
   const auto ahead = std::count_if(leads.begin(), leads.end(), [](double lead) { return lead > 0; });
   const double part = static_cast<double>(ahead) / static_cast<double>(leads.size());
-  std::nth_element(leads.begin(), leads.begin() + leads.size() / 2, leads.end());
-  const bool tucked = ahead >= kMost * leads.size() && leads[leads.size() / 2] > kClearly_m;
+  const bool tucked = ahead >= kMost * leads.size() && median(leads) > kClearly_m;
   return {tucked ? Worn::under : Worn::over, std::abs(2 * part - 1)};
 }
 

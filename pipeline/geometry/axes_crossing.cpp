@@ -1,8 +1,9 @@
 #include "pipeline/geometry/axes_crossing.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 
@@ -17,7 +18,7 @@ std::optional<Vector3d> axes_crossing(const std::vector<Isometry3d>& world_from_
     vector += across * pose.translation();
   }
   if (std::abs(matrix.determinant()) < kLeastDeterminant) return {};
-  return matrix.ldlt().solve(vector);
+  return Vector3d(solve_symmetric(matrix, vector));
 }
 
 }  // namespace dressform

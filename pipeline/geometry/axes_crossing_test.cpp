@@ -4,13 +4,15 @@
 
 #include <cmath>
 
+#include "scenes/small_solvers.h"
+
 namespace dressform {
 namespace {
 
 // A sensor at `eye` whose optical axis goes through `target`.
 Isometry3d looking(const Vector3d& eye, const Vector3d& target) {
   Isometry3d pose = Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), target - eye).toRotationMatrix();
+  pose.linear() = rotation_between(Vector3d::UnitZ(), target - eye);
   pose.translation() = eye;
   return pose;
 }

@@ -10,6 +10,7 @@
 
 #include "pipeline/geometry/mesh_cleanup.h"
 #include "pipeline/geometry/mesh_query.h"
+#include "pipeline/geometry/submesh.h"
 #include "scenes/disjoint_sets.h"
 
 namespace dressform {
@@ -34,11 +35,9 @@ Mesh largest_component(const Mesh& mesh) {
   std::vector<int> count(mesh.vertices.size(), 0);
   for (const auto& t : mesh.triangles) ++count[sets.root(t[0])];
   const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
-  Mesh result;
-  result.vertices = mesh.vertices;
-  for (const auto& t : mesh.triangles)
-    if (sets.root(t[0]) == best) result.triangles.push_back(t);
-  return compacted(result);
+  std::vector<char> kept;
+  for (const auto& t : mesh.triangles) kept.push_back(sets.root(t[0]) == best);
+  return submesh(mesh, kept);
 }
 
 bool ball_shaped(const Mesh& mesh) {

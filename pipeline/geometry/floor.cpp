@@ -1,6 +1,5 @@
 #include "pipeline/geometry/floor.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "scenes/random.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -65,7 +65,7 @@ Vector4d fit_plane(const std::vector<Vector3d>& points) {
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const Vector3d& p : points) covariance += (p - mean) * (p - mean).transpose();
-  const Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  const Vector3d normal = symmetric_eigen(covariance).vectors.col(0);
   return Vector4d(normal.x(), normal.y(), normal.z(), -normal.dot(mean));
 }
 

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 #include <stdexcept>
+
+#include "pipeline/geometry/point_tree.h"
 
 namespace dressform {
 namespace {
-
-struct Nearest {
-  const std::vector<Vector3d>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Nearest>, Nearest, 3>;
 
 struct Side {
   int low, high, triangle, corner;
@@ -73,16 +63,6 @@ Pieces edge_connected_pieces(const TriangleNeighbours& neighbours, const std::ve
   return pieces;
 }
 
-std::vector<double> triangle_areas_m2(const Mesh& mesh) {
-  std::vector<double> areas;
-  areas.reserve(mesh.triangles.size());
-  for (const Vector3i& t : mesh.triangles) {
-    const Vector3d& a = mesh.vertices[t[0]];
-    areas.push_back(0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm());
-  }
-  return areas;
-}
-
 double mean_edge_m(const Mesh& mesh) {
   double sum = 0;
   for (const Vector3i& t : mesh.triangles)
@@ -108,14 +88,13 @@ std::vector<Vector3d> path_midpoints(const MeshQuery& surface, const std::vector
 std::vector<double> centroid_distances(const Mesh& mesh, const std::vector<Vector3d>& points) {
   std::vector<double> distances(mesh.triangles.size(), std::numeric_limits<double>::infinity());
   if (points.empty()) return distances;
-  const Nearest adaptor{points};
-  const Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const PointTree tree(points);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
     const Vector3d centroid = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
     std::uint32_t nearest = 0;
     double squared = 0;
-    if (tree.knnSearch(centroid.data(), 1, &nearest, &squared)) distances[i] = std::sqrt(squared);
+    if (tree.nearest(centroid, nearest, squared)) distances[i] = std::sqrt(squared);
   }
   return distances;
 }

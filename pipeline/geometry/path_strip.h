@@ -21,7 +21,6 @@ struct Pieces {
 };
 Pieces edge_connected_pieces(const TriangleNeighbours& neighbours, const std::vector<char>& kept);
 
-std::vector<double> triangle_areas_m2(const Mesh& mesh);
 double mean_edge_m(const Mesh& mesh);  // over the triangles' sides; 0 for none
 
 // The middles of a path's segments, no segment longer than `longest_m`, each moved to the nearest point of the surface.

@@ -17,9 +17,11 @@ constexpr int kFrames = 6;   // of a scan: some hundred windows each
 
 double depth_noise_factor(const std::vector<cv::Mat>& depth_mm, const Camera& camera) {
   std::vector<double> factors;
+  cv::Mat grid;  // takes longer than an image's windows
   for (const auto& image : depth_mm) {
     if (image.type() != CV_16U || image.cols != camera.width || image.rows != camera.height) continue;
-    for (const auto& window : smooth_windows(image, camera))
+    if (grid.empty()) grid = normalized_grid(camera);
+    for (const auto& window : smooth_windows_on(grid, image))
       factors.push_back(1e-3 * window.sigma_mm / axial_noise_m(window.z_m, std::cos(window.theta_rad)));
   }
   if (factors.size() < kLeastWindows) return 1;

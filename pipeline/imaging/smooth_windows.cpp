@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scenes/small_solvers.h"
+
 namespace dressform {
 namespace {
 
@@ -20,7 +22,7 @@ struct Fit {
 };
 Fit fit(const Eigen::MatrixXd& terms, const Eigen::VectorXd& values) {
   Fit result;
-  result.coefficients = (terms.transpose() * terms).ldlt().solve(terms.transpose() * values);
+  result.coefficients = solve_symmetric(terms.transpose() * terms, terms.transpose() * values);
   result.residuals = values - terms * result.coefficients;
   return result;
 }
@@ -82,7 +84,10 @@ class WindowFitter {
 }  // namespace
 
 std::vector<SmoothWindow> smooth_windows(const cv::Mat& depth_mm, const Camera& camera, int edge_px) {
-  const cv::Mat grid = normalized_grid(camera);
+  return smooth_windows_on(normalized_grid(camera), depth_mm, edge_px);
+}
+
+std::vector<SmoothWindow> smooth_windows_on(const cv::Mat& grid, const cv::Mat& depth_mm, int edge_px) {
   const WindowFitter fitter(depth_mm, grid, edge_px);
   const int rows = depth_mm.rows / edge_px, columns = depth_mm.cols / edge_px;
   std::vector<std::optional<SmoothWindow>> found(static_cast<std::size_t>(rows) * columns);

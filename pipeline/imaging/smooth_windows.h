@@ -22,4 +22,7 @@ struct SmoothWindow {
 // it is an upper bound on surfaces that are not smooth themselves, and slow parts of the noise go into the plane.
 std::vector<SmoothWindow> smooth_windows(const cv::Mat& depth_mm, const Camera& camera, int edge_px = 15);
 
+// The same for many images of one camera: `grid` is normalized_grid(camera).
+std::vector<SmoothWindow> smooth_windows_on(const cv::Mat& grid, const cv::Mat& depth_mm, int edge_px = 15);
+
 }  // namespace dressform

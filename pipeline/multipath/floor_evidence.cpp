@@ -1,11 +1,11 @@
 #include "pipeline/multipath/floor_evidence.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "pipeline/geometry/floor.h"
 #include "scenes/random.h"
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -65,7 +65,7 @@ FloorEvidence floor_evidence(const SurfaceCells& cells, const std::vector<float>
   Eigen::Vector4d solution = Eigen::Vector4d::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     normal = equations.transpose() * weights.asDiagonal() * equations;
-    solution = normal.ldlt().solve(equations.transpose() * weights.cwiseProduct(right));
+    solution = solve_symmetric(normal, equations.transpose() * weights.cwiseProduct(right));
     const Eigen::VectorXd residual = (equations * solution - right).cwiseAbs();
     sigma = std::max(kLeastSigma, kSigmaPerMedianDeviation * median<double>({residual.begin(), residual.end()}));
     weights = residual.unaryExpr(

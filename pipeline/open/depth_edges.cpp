@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pipeline/imaging/color_mapping.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -39,8 +40,7 @@ bool stood_still(const SeenView& view, const cv::Mat& naked_mm) {
       shifts.push_back(std::abs(dressed - naked));
     }
   if (shifts.size() < kFewest) return false;
-  std::nth_element(shifts.begin(), shifts.begin() + shifts.size() / 2, shifts.end());
-  return shifts[shifts.size() / 2] < kStill_mm;
+  return median(std::move(shifts)) < kStill_mm;
 }
 
 SeenView seen_view(const DepthView& depth, const CaptureSession& session, const Segmentation& segmentation) {

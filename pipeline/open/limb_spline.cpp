@@ -1,13 +1,11 @@
 // Rims as periodic splines in the coordinates of the limbs, the surface cut exactly there.
-#include <cmath>
-#include <limits>
-
 #include "pipeline/garment/sleeves.h"
 #include "pipeline/open/caps.h"
 #include "pipeline/open/cut.h"
 #include "pipeline/open/depth_edges.h"
 #include "pipeline/open/flaw.h"
 #include "pipeline/open/mask_edges.h"
+#include "pipeline/open/named_rims.h"
 #include "pipeline/open/open.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/place_rim.h"
@@ -55,34 +53,6 @@ struct Work {
   std::vector<BodyPart> parts;                       // of the body below the vertices
   std::map<std::string, std::vector<double>> limit;  // limit_of every opening
 };
-
-// The loops of the open mesh, each named after the opening whose cut is nearest.
-std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::vector<Opening>& openings,
-                            const std::vector<bool>& observed) {
-  std::vector<Vector3d> centres(openings.size(), Vector3d::Zero());
-  std::vector<int> counts(openings.size(), 0);
-  for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
-    if (cut.cap_of_vertex[i] < 0) continue;
-    centres[cut.cap_of_vertex[i]] += cut.mesh.vertices[i];
-    ++counts[cut.cap_of_vertex[i]];
-  }
-  std::vector<Rim> rims;
-  for (const auto& loop : boundary_loops(mesh)) {
-    Vector3d centre = Vector3d::Zero();
-    for (const int v : loop) centre += mesh.vertices[v] / loop.size();
-    std::size_t best = 0;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < openings.size(); ++k) {
-      const double distance = (centres[k] / std::max(1, counts[k]) - centre).norm();
-      if (distance < nearest) best = k;
-      nearest = std::min(nearest, distance);
-    }
-    Rim rim{openings[best].name, {}, observed[best]};
-    for (const int v : loop) rim.points.push_back(mesh.vertices[v]);
-    rims.push_back(std::move(rim));
-  }
-  return rims;
-}
 
 // A garment cut open, or why it is not.
 struct CutOutcome {

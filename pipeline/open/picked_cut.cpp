@@ -10,6 +10,7 @@
 #include "pipeline/geometry/path_strip.h"
 #include "pipeline/open/fans.h"
 #include "pipeline/open/picked_loop.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {

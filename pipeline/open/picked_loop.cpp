@@ -1,10 +1,9 @@
 #include "pipeline/open/picked_loop.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -24,9 +23,9 @@ struct LoopFrame {
     for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const Vector3d& p : points) spread += (p - mean) * (p - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-    axis = solver.eigenvectors().col(0);
-    right = solver.eigenvectors().col(2);
+    const SymmetricEigen principal = symmetric_eigen(spread);
+    axis = principal.vectors.col(0);
+    right = principal.vectors.col(2);
     ahead = axis.cross(right);
     Eigen::MatrixX3d circle(points.size(), 3);
     Eigen::VectorXd squares(points.size());
@@ -35,7 +34,7 @@ struct LoopFrame {
       circle.row(i) << 2 * d.dot(right), 2 * d.dot(ahead), 1;
       squares[i] = d.dot(right) * d.dot(right) + d.dot(ahead) * d.dot(ahead);
     }
-    const Vector3d solution = circle.colPivHouseholderQr().solve(squares);
+    const Vector3d solution = solve_least_squares(circle, squares);
     centre = mean + solution.x() * right + solution.y() * ahead;
   }
 
@@ -119,11 +118,13 @@ std::vector<Vector3d> picked_loop(const std::vector<PickedPoints>& parts) {
   return with_gaps_bridged(without_repeats(thinned(all, kMerge * spacing_m)), frame, spacing_m);
 }
 
-double enclosed_area_m2(const std::vector<Vector3d>& loop) {
-  Vector3d doubled = Vector3d::Zero();
+Vector3d doubled_area(const std::vector<Vector3d>& loop) {
+  Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < loop.size(); ++i)
-    doubled += (loop[i] - loop.front()).cross(loop[(i + 1) % loop.size()] - loop.front());
-  return doubled.norm() / 2;
+    sum += (loop[i] - loop.front()).cross(loop[(i + 1) % loop.size()] - loop.front());
+  return sum;
 }
+
+double enclosed_area_m2(const std::vector<Vector3d>& loop) { return doubled_area(loop).norm() / 2; }
 
 }  // namespace dressform

@@ -12,6 +12,9 @@ namespace dressform {
 // May have fewer than three points.
 std::vector<Vector3d> picked_loop(const std::vector<PickedPoints>& parts);
 
+// Normal of a closed loop, seen from whose tip it runs counter-clockwise, as long as twice the area it encloses.
+Vector3d doubled_area(const std::vector<Vector3d>& loop);
+
 // Area of the flat-most surface in a closed loop, square metres.
 double enclosed_area_m2(const std::vector<Vector3d>& loop);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pipeline/geometry/sector.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kBelowTop_m = 0.02;      // a waist that nothing shows is cut t
 // Where the points that the surface was made from end, in the opening's coordinates: the farthest ones of each sector.
 std::vector<RimSample> support_ends(const PointCloud& support, const Opening& opening, const OpenScene& scene) {
   constexpr int kSectors = 24;
+  constexpr std::size_t kStrays = 2;  // of a sector, that may lie beyond the cloth
   std::vector<std::vector<double>> sectors(kSectors);
   for (const Vector3d& p : support.points) {
     if (!belongs(opening, scene.part_below(p), p, scene.landmarks)) continue;
@@ -29,16 +31,15 @@ std::vector<RimSample> support_ends(const PointCloud& support, const Opening& op
   std::vector<RimSample> samples;
   std::vector<double> ends;
   for (int i = 0; i < kSectors; ++i) {
-    auto& values = sectors[i];
+    const auto& values = sectors[i];
     if (values.size() < kFewestPoints) continue;
-    std::nth_element(values.begin(), values.end() - 3, values.end());  // but for two strays
-    samples.push_back({-M_PI + 2 * M_PI * (i + 0.5) / kSectors, *(values.end() - 3), 1});
+    const double farthest = nth_value(values, values.size() - 1 - kStrays);
+    samples.push_back({-M_PI + 2 * M_PI * (i + 0.5) / kSectors, farthest, 1});
     ends.push_back(samples.back().along);
   }
   if (ends.empty()) return samples;
   // Sectors that no view faces end early: they say nothing.
-  std::nth_element(ends.begin(), ends.begin() + ends.size() * 2 / 3, ends.end());
-  const double typical = ends[ends.size() * 2 / 3];
+  const double typical = nth_value(ends, ends.size() * 2 / 3);
   samples.erase(std::remove_if(samples.begin(), samples.end(),
                                [&](const RimSample& s) { return s.along < typical - kEarlyEnd_m; }),
                 samples.end());
@@ -64,10 +65,10 @@ std::vector<RimSample> completed(std::vector<RimSample> edges, const RimCurve& r
       alone.push_back(end);
   }
   const bool known = short_by.size() >= kFewestEnds;
-  if (known) std::nth_element(short_by.begin(), short_by.begin() + short_by.size() / 2, short_by.end());
+  const double usual_m = known ? std::clamp(median(short_by), 0.0, kMostShort_m) : 0;
   for (RimSample& end : alone) {
     if (known)
-      end.along += std::clamp(short_by[short_by.size() / 2], 0.0, kMostShort_m);
+      end.along += usual_m;
     else if (end.along < rough.at(end.angle))
       end.weight *= kShortEnd;
     edges.push_back(end);

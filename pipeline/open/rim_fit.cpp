@@ -1,6 +1,5 @@
 #include "pipeline/open/rim_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,6 +9,7 @@
 
 #include "pipeline/open/rim_path.h"
 #include "scenes/random.h"
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -61,7 +61,7 @@ Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::Vector
       for (int c = 0; c < 3; ++c)
         normal(at[r], at[c]) += smoothness * (second[r] * second[c] + kTension * first[r] * first[c]);
   }
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 constexpr int kParts = 24;  // of the turn, one vote each
@@ -111,7 +111,7 @@ FlatCut refined(const std::vector<std::vector<RimSample>>& parts, const FlatCut&
       right += w * s.along * row;
     }
   }
-  const Eigen::Vector3d x = normal.ldlt().solve(right);
+  const Eigen::Vector3d x = solve_symmetric(normal, right);
   return {x[0], x[1], x[2]};
 }
 

@@ -5,15 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/open/picked_loop.h"
+
 namespace dressform {
 namespace {
-
-Vector3d doubled_area(const std::vector<Vector3d>& loop) {
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    sum += (loop[i] - loop.front()).cross(loop[(i + 1) % loop.size()] - loop.front());
-  return sum;
-}
 
 // Both loops begin where they are nearest to one another.
 void begin_together(const std::vector<Vector3d>& vertices, std::vector<int>& boundary, std::vector<Vector3d>& picked) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/garment/garment_kind.h"
 #include "pipeline/garment/sleeves.h"
 #include "pipeline/open/flaw.h"
 #include "pipeline/open/open.h"
@@ -68,13 +69,6 @@ bool observed(const std::string& rim, const GarmentLayout& layout) {
   return !(layout.worn == Worn::under && rim == (layout.upper() ? "hem" : "waist"));
 }
 
-GarmentLayout layout_of_kind(GarmentLayout layout, const std::string& kind, const Landmarks& limbs) {
-  if (layout.kind == kind) return layout;
-  layout.kind = kind;
-  for (int side = 0; side < 2; ++side) layout.legs[side].covered = limbs.leg(side) && layout.forked();
-  return layout;
-}
-
 // The garment, or why there is none.
 std::optional<OpenGarment> opened(const std::string& name, const ClosedGarment& closed, const Landmarks& limbs,
                                   const Picks& picks, const PickedCutParams& params, std::string& why) {
@@ -90,7 +84,7 @@ std::optional<OpenGarment> opened(const std::string& name, const ClosedGarment& 
 
   OpenGarment garment;
   garment.mesh = std::move(cut.mesh);
-  garment.layout = layout_of_kind(closed.layout, kind, limbs);
+  garment.layout = with_kind(closed.layout, {kind, closed.layout.sure_kind}, limbs);
   for (std::size_t i = 0; i < rims.size(); ++i) {
     stitch(garment.mesh, cut.boundaries[i], rims[i].points);
     garment.rims.push_back({rims[i].name, rims[i].points, observed(rims[i].name, garment.layout)});

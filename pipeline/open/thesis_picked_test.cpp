@@ -9,6 +9,7 @@
 #include "pipeline/open/stitch.h"
 #include "pipeline/testing/dressed_figure.h"
 #include "scenes/picks.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {
@@ -31,8 +32,7 @@ std::vector<Vector3d> arc(const Vector3d& centre, const Vector3d& axis, double r
 
 double area_m2(const Mesh& mesh) {
   double sum = 0;
-  for (const Vector3i& t : mesh.triangles)
-    sum += (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() / 2;
+  for (const double area : triangle_areas_m2(mesh)) sum += area;
   return sum;
 }
 

@@ -58,9 +58,7 @@ void add_sigma(const ViewPoints& view, const ModelTarget& target, const ViewAlig
     const ViewAlignment again = align_to_model(without_part(view, parts, part), target, alignment.model_from_sensor,
                                                {{0.015, 0.7, kPartPoints}}, kPartIterations);
     all = all && again.valid;
-    const Isometry3d step = again.model_from_sensor * alignment.model_from_sensor.inverse();
-    const Eigen::AngleAxisd turn(step.linear());
-    twists[part] << turn.angle() * turn.axis(), step * centre - centre;
+    twists[part] = motion_at(again.model_from_sensor * alignment.model_from_sensor.inverse(), centre);
   }
   Vector6d mean = Vector6d::Zero();
   for (const auto& twist : twists) mean += twist / kParts;

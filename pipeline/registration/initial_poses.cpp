@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
@@ -38,7 +39,7 @@ Isometry3d upright_from_sensor(const ViewPoints& view, const ModelTarget& target
   else if (view.world_from_sensor)
     up = view.world_from_sensor->linear().transpose() * Vector3d::UnitY();
   Isometry3d upright = Isometry3d::Identity();
-  upright.linear() = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitY()).toRotationMatrix();
+  upright.linear() = rotation_between(up, Vector3d::UnitY());
   upright = Isometry3d(Eigen::AngleAxisd(-heading_of(upright), Vector3d::UnitY())) * upright;
   std::vector<double> x, y, z;
   for (const int i : view.body) {

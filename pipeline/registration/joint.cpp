@@ -1,8 +1,9 @@
-#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/registration/acceptance.h"
 #include "pipeline/registration/initial_poses.h"
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -77,14 +78,15 @@ double joint_step(const std::vector<ViewPoints>& views, const std::vector<std::v
     measure(model, alignments[v]);
     for (std::size_t w = 0; w < count; ++w) {
       if (w == v || !accepted[w] || overlap_weight == 0) continue;
+      const double width_m = std::max(loss_width_m(views[v], gate.distance_m), loss_width_m(views[w], gate.distance_m));
       system.add_overlap(
           v, w,
           pair_equations(views[v].map, samples[v], views[w].map, projectors[w], alignments[v].model_from_sensor,
-                         alignments[w].model_from_sensor, {kOverlapWidth * gate.distance_m, kOverlapCosine, 1}),
+                         alignments[w].model_from_sensor, {kOverlapWidth * width_m, kOverlapCosine, 1}),
           overlap_weight);
     }
   }
-  const Eigen::VectorXd solution = system.matrix.ldlt().solve(system.vector);
+  const Eigen::VectorXd solution = solve_symmetric(system.matrix, system.vector);
   for (std::size_t v = 0; v < count; ++v)
     if (accepted[v])
       alignments[v].model_from_sensor = exponential(solution.segment<6>(6 * v)) * alignments[v].model_from_sensor;

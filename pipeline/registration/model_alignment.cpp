@@ -55,12 +55,16 @@ bool ModelTarget::nearest(const MeshQuery& query, const Vector3d& point, double 
   return true;
 }
 
+double loss_width_m(const ViewPoints& view, double asked_m) {
+  return std::max(asked_m, kLeastSigmas * view.body_sigma_m);
+}
+
 ModelEquations model_equations(const ViewPoints& view, const ModelTarget& target, const Isometry3d& model_from_sensor,
                                const ModelGate& gate) {
   ModelEquations sum;
   const Eigen::Matrix3d& rotation = model_from_sensor.linear();
   const std::size_t body_stride = stride_for(view.body.size(), gate.most_points);
-  const double width_m = std::max(gate.distance_m, kLeastSigmas * view.body_sigma_m);
+  const double width_m = loss_width_m(view, gate.distance_m);
   for (std::size_t k = 0; k < view.body.size(); k += body_stride) {
     const int i = view.body[k];
     const Vector3d point = model_from_sensor * view.map.points[i].cast<double>();

@@ -37,6 +37,8 @@ struct ModelGate {
   double normal_cosine = 0.7;
   int most_points = 1 << 30;  // of the body, evenly thinned; of the floor a third of it
 };
+// Tukey's constant for points of a view's body: the one asked for, or what the view's own noise needs to fit into.
+double loss_width_m(const ViewPoints& view, double asked_m);
 
 // How the loss narrows while views are brought to the model: Tukey's constants.
 struct LossWidths {

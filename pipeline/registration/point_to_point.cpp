@@ -1,33 +1,21 @@
-#include <tbb/parallel_for.h>
-
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pipeline/registration/acceptance.h"
-#include "pipeline/registration/initial_poses.h"
+#include "pipeline/registration/each_view.h"
+#include "scenes/small_solvers.h"
 #include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
 
 struct PointToPointParams {
-  int points = 2000;
-  int iterations = 50;
-  LossWidths loss;
-  InitialPoseOptions initial;
-  AcceptanceOptions acceptance;
+  EachViewOptions views{2000, 50};
 };
 
 template <class V>
 void fields(V& v, PointToPointParams& p) {
-  v("points", p.points, 200, 200000, "", "of the mannequin used in every view");
-  v("iterations", p.iterations, 1, 1000, "", "at each of three widths of the loss");
-  loss_fields(v, p.loss);
-  v("headings", p.initial.headings, 4, 360, "", "starts round the circle");
-  v("prior_reach_deg", p.initial.prior_reach_deg, 5.0, 180.0, "deg", "how far a view may turn from the rig prior");
-  acceptance_fields(v, p.acceptance);
+  each_view_fields(v, p.views, 1000);
 }
 
 constexpr double kReach = 1.5;  // of the loss's width: nearest points farther off are not looked for
@@ -57,13 +45,7 @@ struct Pairs {
 Isometry3d best_motion(const Pairs& pairs) {
   const Vector3d from = pairs.from / pairs.weight, to = pairs.to / pairs.weight;
   const Eigen::Matrix3d spread = pairs.product - pairs.weight * from * to.transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixV() * svd.matrixU().transpose();
-  if (turn.determinant() < 0) {
-    Eigen::Matrix3d v = svd.matrixV();
-    v.col(2) = -v.col(2);
-    turn = v * svd.matrixU().transpose();
-  }
+  const Eigen::Matrix3d turn = nearest_rotation(spread.transpose());
   Isometry3d motion = Isometry3d::Identity();
   motion.linear() = turn;
   motion.translation() = to - turn * from;
@@ -74,15 +56,16 @@ Isometry3d best_motion(const Pairs& pairs) {
 Pairs closest_pairs(const ViewPoints& view, const ModelTarget& target, const Isometry3d& model_from_sensor,
                     const ModelGate& gate) {
   Pairs pairs;
+  const double width_m = loss_width_m(view, gate.distance_m);
   for (const int i : view.body) {
     const Vector3d point = model_from_sensor * view.map.points[i].cast<double>();
     ++pairs.points;
     pairs.loss += 1;
     ModelTarget::Contact contact;
-    if (!target.body(point, kReach * gate.distance_m, contact)) continue;
+    if (!target.body(point, kReach * width_m, contact)) continue;
     if (contact.normal.dot(model_from_sensor.linear() * view.map.normals[i].cast<double>()) < gate.normal_cosine)
       continue;
-    const Tukey tukey((point - contact.point).norm() / gate.distance_m);
+    const Tukey tukey((point - contact.point).norm() / width_m);
     if (tukey.weight == 0) continue;
     pairs.loss += tukey.loss - 1;
     pairs.add(point, contact.point, tukey.weight);
@@ -138,21 +121,6 @@ class Acceleration {
   std::array<double, 2> errors_{0, 0};
 };
 
-Vector6d step_about(const Isometry3d& motion, const Vector3d& centre) {
-  const Eigen::AngleAxisd turn(motion.linear());
-  Vector6d step;
-  step << turn.angle() * turn.axis(), motion * centre - centre;
-  return step;
-}
-
-Isometry3d motion_about(const Vector6d& step, const Vector3d& centre) {
-  Isometry3d motion = Isometry3d::Identity();
-  if (const double angle = step.head<3>().norm(); angle > 0)
-    motion.linear() = Eigen::AngleAxisd(angle, step.head<3>() / angle).toRotationMatrix();
-  motion.translation() = centre + step.tail<3>() - motion.linear() * centre;
-  return motion;
-}
-
 ViewAlignment align_points(const ViewPoints& view, const ModelTarget& target, const Isometry3d& initial,
                            const std::vector<ModelGate>& gates, int iterations) {
   ViewAlignment result;
@@ -164,7 +132,7 @@ ViewAlignment align_points(const ViewPoints& view, const ModelTarget& target, co
       result.valid = pairs.count >= kLeastPairs;
       if (!result.valid) return result;
       const Vector3d centre = pairs.to / pairs.weight;
-      const Vector6d step = step_about(best_motion(pairs), centre);
+      const Vector6d step = motion_at(best_motion(pairs), centre);
       if (negligible(step, kStill_rad, kStill_m)) break;
       const double beyond = acceleration.beyond(step, pairs.cost());
       result.model_from_sensor = motion_about((1 + beyond) * step, centre) * result.model_from_sensor;
@@ -181,23 +149,7 @@ ViewAlignment align_points(const ViewPoints& view, const ModelTarget& target, co
 // that narrows. A baseline: along a surface nothing holds a view, so that it creeps where planes would let it slide.
 Registration point_to_point(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                             const ExtractedViews& extracted, const PointToPointParams& params) {
-  check_registration_input(session, naked);
-  const auto views = view_points(session, calibration, extracted, params.points);
-  const ModelTarget target(naked);
-  auto alignments = initial_poses(views, target, params.initial);
-  std::vector<ModelGate> gates;
-  for (const double width_m : {params.loss.wide_m, params.loss.middle_m, params.loss.narrow_m})
-    gates.push_back({width_m, params.loss.normal_cosine});
-  ViewVerdicts verdicts = no_verdicts(views.size());
-  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t v) {
-    if (!alignments[v].valid) return;
-    alignments[v] = align_points(views[v], target, alignments[v].model_from_sensor, gates, params.iterations);
-    verdicts.accepted[v] = acceptable(views[v], target, alignments[v], params.acceptance);
-  });
-  reject_outliers(alignments, verdicts.accepted);
-  while (reject_by_evidence(views, target, alignments, params.acceptance, verdicts)) {
-  }
-  return registration_of(views, alignments, verdicts);
+  return register_each_view(session, calibration, naked, extracted, params.views, align_points);
 }
 
 const Register::Variant point_to_point_variant{"point_to_point", point_to_point};

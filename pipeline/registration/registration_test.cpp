@@ -5,73 +5,18 @@
 
 #include "pipeline/registration/acceptance.h"
 #include "pipeline/registration/initial_poses.h"
-#include "pipeline/testing/test_scene.h"
+#include "pipeline/testing/registration_rig.h"
 #include "scenes/error.h"
 
 namespace dressform {
 namespace {
 
 using test_scene::Figure;
+using test_scene::figure_mesh;
+using test_scene::make_rig;
+using test_scene::Rig;
 
-constexpr double kDegrees = 180 / M_PI;
-
-// The figure's own surface: the outermost crossing of rays towards points of its axis, as a fine closed mesh of every
-// part. Parts overlap; hidden pieces lie inside and no sensor sees them.
-Mesh figure_mesh(const Figure& figure) {
-  constexpr int kRings = 48, kSides = 64;
-  Mesh mesh;
-  for (const auto& part : figure.parts) {
-    const int first = static_cast<int>(mesh.vertices.size());
-    for (int r = 0; r <= kRings; ++r)
-      for (int s = 0; s < kSides; ++s) {
-        const double polar = M_PI * r / kRings, turn = 2 * M_PI * s / kSides;
-        const Vector3d unit(std::sin(polar) * std::sin(turn), std::cos(polar), std::sin(polar) * std::cos(turn));
-        mesh.vertices.push_back(part.centre + part.rotation * unit.cwiseProduct(part.radii));
-      }
-    for (int r = 0; r < kRings; ++r)
-      for (int s = 0; s < kSides; ++s) {
-        const int a = first + r * kSides + s, b = first + r * kSides + (s + 1) % kSides, c = a + kSides, d = b + kSides;
-        if (r > 0) mesh.triangles.emplace_back(a, c, b);
-        if (r + 1 < kRings) mesh.triangles.emplace_back(b, c, d);
-      }
-  }
-  return mesh;
-}
-
-struct Rig {
-  CaptureSession session;
-  Calibration calibration;
-  BodyModel naked;
-  std::map<std::string, Isometry3d> model_from_sensor, world_from_sensor;
-};
-
-// Four sensors at right angles; the model is the figure turned by `heading_deg` about the vertical.
-Rig make_rig(double heading_deg, double prior_error_deg) {
-  Rig rig;
-  const Figure figure = test_scene::standing_figure();
-  const Isometry3d model_from_world(Eigen::AngleAxisd(heading_deg / kDegrees, Vector3d::UnitY()));
-  rig.naked.body = transformed(figure_mesh(figure), model_from_world.matrix());
-  rig.session.prior.emplace();
-  for (int k = 0; k < 4; ++k) {
-    const std::string name = "k" + std::to_string(k + 1);
-    const double angle = M_PI / 2 * k + 0.05 * k;
-    const Isometry3d pose =
-        test_scene::looking_at({2.1 * std::sin(angle), 1.25, 2.1 * std::cos(angle)}, {0.02 * k, 0.95, 0}, 0.5 * k);
-    const SensorCalibration calibration = test_scene::kinect(0.5, -0.01);
-    rig.session.sensors.push_back(name);
-    rig.calibration.sensors[name] = calibration;
-    rig.session.naked[name].depth_mm =
-        test_scene::depth_image(figure, calibration, normalized_grid(calibration.ir), pose, 1, 40 + k);
-    rig.model_from_sensor[name] = model_from_world * pose;
-    rig.world_from_sensor[name] = pose;
-    const auto n = normal4(9, 9, k);
-    Isometry3d error(Eigen::AngleAxisd(prior_error_deg / kDegrees, Vector3d(n[0], n[1], n[2]).normalized()));
-    error.translation() = 0.1 * Vector3d(n[1], n[2], n[3]).normalized();
-    rig.session.prior->world_from_sensor[name] = pose * error;
-  }
-  rig.session.calibration = rig.calibration;
-  return rig;
-}
+constexpr double kDegreesPerRadian = 180 / M_PI;
 
 double target_error_m(const Isometry3d& found, const Isometry3d& truth, const Mesh& body) {
   double sum = 0;
@@ -80,13 +25,33 @@ double target_error_m(const Isometry3d& found, const Isometry3d& truth, const Me
   return std::sqrt(sum / body.vertices.size());
 }
 
-void expect_found(const Rig& rig, const Registration& result, const std::string& sensor) {
-  ASSERT_TRUE(result.converged.at(sensor)) << sensor;
+// How near a variant comes. Views a quarter turn apart share strips at the mannequin's sides and the floor: without the
+// scan that ties them less. Features alone may put a view of a smooth body anywhere, and evidence then leaves it out.
+struct Reach {
+  double rotation_deg = 0.3, error_m = 0.003;
+  bool may_miss = false;
+};
+Reach reach_of(const std::string& variant) {
+  if (variant == "scan_free") return {0.8, 0.008, false};
+  return {0.3, 0.003, variant == "fgr_icp"};
+}
+
+// Whether a view is left out that may be, with a reason.
+bool missed(const Registration& result, const std::string& sensor, const Reach& reach) {
+  if (!reach.may_miss || result.converged.at(sensor)) return false;
+  EXPECT_FALSE(result.problem.at(sensor).empty());
+  return true;
+}
+
+void expect_found(const Rig& rig, const Registration& result, const std::string& sensor, const Reach& reach) {
+  if (missed(result, sensor, reach)) return;
+  ASSERT_TRUE(result.converged.at(sensor)) << sensor << ": " << result.problem.at(sensor);
   const Isometry3d &found = result.model_from_sensor.at(sensor), &truth = rig.model_from_sensor.at(sensor);
-  EXPECT_LT(kDegrees * Eigen::AngleAxisd((found * truth.inverse()).linear()).angle(), 0.3) << sensor;
-  EXPECT_LT(target_error_m(found, truth, rig.naked.body), 0.003) << sensor;
+  EXPECT_LT(kDegreesPerRadian * Eigen::AngleAxisd((found * truth.inverse()).linear()).angle(), reach.rotation_deg)
+      << sensor;
+  EXPECT_LT(target_error_m(found, truth, rig.naked.body), reach.error_m) << sensor;
   EXPECT_GT(result.inliers.at(sensor), 500) << sensor;
-  EXPECT_LT(result.residual_rms_m.at(sensor), 0.006) << sensor;
+  EXPECT_LT(result.residual_rms_m.at(sensor), std::max(0.006, reach.error_m)) << sensor;
 }
 
 class EveryRegistration : public testing::TestWithParam<std::string> {
@@ -94,13 +59,14 @@ class EveryRegistration : public testing::TestWithParam<std::string> {
   Registration run(const Rig& rig, const ExtractedViews& extracted = {}) const {
     return Register::at(GetParam()).run(rig.session, rig.calibration, rig.naked, extracted, {}, 1);
   }
+  const Reach reach_ = reach_of(GetParam());
 };
 
 TEST_P(EveryRegistration, KnownMotionFromAPoorPriorAndAnyHeading) {
   for (const double heading_deg : {0.0, 200.0}) {
     const Rig rig = make_rig(heading_deg, 20);
     const Registration result = run(rig);
-    for (const auto& sensor : rig.session.sensors) expect_found(rig, result, sensor);
+    for (const auto& sensor : rig.session.sensors) expect_found(rig, result, sensor, reach_);
   }
 }
 
@@ -108,7 +74,14 @@ TEST_P(EveryRegistration, WithoutPrior) {
   Rig rig = make_rig(75, 0);
   rig.session.prior.reset();
   const Registration result = run(rig);
-  for (const auto& sensor : rig.session.sensors) expect_found(rig, result, sensor);
+  for (const auto& sensor : rig.session.sensors) {
+    if (GetParam() == "scan_free") {
+      EXPECT_NE(result.problem.at(sensor).find("prior"), std::string::npos) << "nothing else says where views stand";
+      EXPECT_FALSE(result.converged.at(sensor));
+      continue;
+    }
+    expect_found(rig, result, sensor, reach_);
+  }
 }
 
 TEST(ViewPoints, TakesTheMasksItIsGiven) {
@@ -130,8 +103,8 @@ TEST_P(EveryRegistration, MissingAndEmptyViewsHaveNoPose) {
   rig.session.naked.erase("k2");
   rig.session.naked["k4"].depth_mm.setTo(0);
   const Registration result = run(rig);
-  expect_found(rig, result, "k1");
-  expect_found(rig, result, "k3");
+  expect_found(rig, result, "k1", reach_);
+  expect_found(rig, result, "k3", reach_);
   for (const std::string sensor : {"k2", "k4"}) {
     EXPECT_FALSE(result.converged.at(sensor));
     EXPECT_EQ(result.model_from_sensor.count(sensor), 0u);
@@ -148,7 +121,7 @@ TEST_P(EveryRegistration, AViewOfSomethingElseIsNotRegistered) {
   const Registration result = run(rig);
   EXPECT_FALSE(result.converged.at("k2"));
   EXPECT_EQ(result.model_from_sensor.count("k2"), 0u);
-  for (const std::string sensor : {"k1", "k3", "k4"}) expect_found(rig, result, sensor);
+  for (const std::string sensor : {"k1", "k3", "k4"}) expect_found(rig, result, sensor, reach_);
 }
 
 // What the rig looks like where the scan and one view, or all, show different bodies.
@@ -161,7 +134,7 @@ void take_view_of(const Figure& figure, Rig& rig, const std::string& sensor, dou
 // The figure leaning forwards from the hips by an angle: a person who moved after the scan.
 Figure leaning(double degrees) {
   Figure figure = test_scene::standing_figure();
-  const Eigen::Matrix3d lean = Eigen::AngleAxisd(degrees / kDegrees, Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d lean = Eigen::AngleAxisd(degrees / kDegreesPerRadian, Vector3d::UnitX()).toRotationMatrix();
   const Vector3d hips(0, 0.95, 0);
   for (auto& part : figure.parts) {
     if (part.centre.y() < 0.7) continue;
@@ -186,7 +159,7 @@ TEST_P(EveryRegistration, APersonWhoMovedIsNotRegisteredWrongly) {
         continue;
       }
       const Isometry3d error = result.model_from_sensor.at(sensor) * rig.model_from_sensor.at(sensor).inverse();
-      EXPECT_LT(kDegrees * Eigen::AngleAxisd(error.linear()).angle(), 1.0) << sensor << " leaning " << degrees;
+      EXPECT_LT(kDegreesPerRadian * Eigen::AngleAxisd(error.linear()).angle(), 1.0) << sensor << " leaning " << degrees;
       EXPECT_LT((error * Vector3d(0, 0.9, 0) - Vector3d(0, 0.9, 0)).norm(), 0.02) << sensor << " leaning " << degrees;
     }
   }
@@ -196,7 +169,10 @@ TEST_P(EveryRegistration, APersonWhoMovedIsNotRegisteredWrongly) {
 TEST_P(EveryRegistration, SigmaIsOfTheSizeOfTheError) {
   const Rig rig = make_rig(10, 5);
   const Registration result = run(rig);
+  // Without the scan a pose is not where the model has it, which is all that a jackknife of the model knows of.
+  if (GetParam() == "scan_free") GTEST_SKIP() << "sigma is that of the model's fit, by which scan_free moves no view";
   for (const auto& sensor : rig.session.sensors) {
+    if (missed(result, sensor, reach_)) continue;
     const PoseEvidence& evidence = result.evidence.at(sensor);
     EXPECT_GT(evidence.translation_sigma_m, 1e-4) << sensor;
     EXPECT_LT(evidence.translation_sigma_m, 0.006) << sensor;
@@ -206,7 +182,7 @@ TEST_P(EveryRegistration, SigmaIsOfTheSizeOfTheError) {
     EXPECT_LT(evidence.floor_tilt_deg, 0.5) << sensor;
     EXPECT_LT(std::abs(evidence.floor_height_m), 0.01) << sensor;
     EXPECT_LT(evidence.residual_over_noise, 1.8) << sensor;
-    EXPECT_TRUE(result.problem.empty());
+    EXPECT_EQ(result.problem.count(sensor), 0u);
   }
 }
 
@@ -218,6 +194,7 @@ TEST_P(EveryRegistration, ANoisySensorIsHeldToItsOwnNoise) {
     EXPECT_NEAR(view.noise_factor, 4, 0.4) << view.sensor;
   const Registration result = run(rig);
   for (const auto& sensor : rig.session.sensors) {
+    if (missed(result, sensor, reach_)) continue;
     ASSERT_TRUE(result.converged.at(sensor)) << sensor << ": " << result.problem.at(sensor);
     EXPECT_LT(target_error_m(result.model_from_sensor.at(sensor), rig.model_from_sensor.at(sensor), rig.naked.body),
               0.01)
@@ -230,18 +207,20 @@ TEST_P(EveryRegistration, ANoisySensorIsHeldToItsOwnNoise) {
 
 // A bust: no floor, no feet, and a model whose zero of height means nothing.
 TEST_P(EveryRegistration, ABustWithoutAFloor) {
+  if (GetParam() == "scan_free") GTEST_SKIP() << "scan_free stands its views on their floors: its row in the README";
   Figure bust = test_scene::standing_figure();
   bust.parts = {bust.parts[0], bust.parts[2], bust.parts[3], bust.parts[4], bust.parts[5]};
   bust.floor = false;
   Rig rig = make_rig(10, 5);
   for (const auto& sensor : rig.session.sensors) take_view_of(bust, rig, sensor);
   const Isometry3d model_from_world =
-      Eigen::Translation3d(0, 0.31, 0) * Eigen::AngleAxisd(10 / kDegrees, Vector3d::UnitY());
+      Eigen::Translation3d(0, 0.31, 0) * Eigen::AngleAxisd(10 / kDegreesPerRadian, Vector3d::UnitY());
   rig.naked.body = transformed(figure_mesh(bust), model_from_world.matrix());
   rig.naked.floor_seen = false;
   for (auto& [sensor, pose] : rig.model_from_sensor) pose = model_from_world * rig.world_from_sensor.at(sensor);
   const Registration result = run(rig);
   for (const auto& sensor : rig.session.sensors) {
+    if (missed(result, sensor, reach_)) continue;
     ASSERT_TRUE(result.converged.at(sensor)) << sensor << ": " << result.problem.at(sensor);
     EXPECT_LT(target_error_m(result.model_from_sensor.at(sensor), rig.model_from_sensor.at(sensor), rig.naked.body),
               0.01)
@@ -256,8 +235,9 @@ TEST_P(EveryRegistration, SameBytesWithOneAndTwoThreads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     results.push_back(run(rig));
   }
-  for (const auto& sensor : rig.session.sensors)
-    EXPECT_EQ(results[0].model_from_sensor.at(sensor).matrix(), results[1].model_from_sensor.at(sensor).matrix());
+  EXPECT_EQ(results[0].converged, results[1].converged);
+  for (const auto& [sensor, pose] : results[0].model_from_sensor)
+    EXPECT_EQ(pose.matrix(), results[1].model_from_sensor.at(sensor).matrix());
   EXPECT_EQ(results[0].inliers, results[1].inliers);
 }
 

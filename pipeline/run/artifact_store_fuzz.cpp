@@ -6,14 +6,14 @@
 #include "pipeline/registration/registration.h"
 #include "pipeline/run/artifact_store.h"
 #include "scenes/serialize.h"
-#include "scenes/session_fuzz.h"
+#include "scenes/testing/fuzz_file.h"
 
 namespace {
 
 using namespace dressform;
 
 void read_record(const std::uint8_t* data, std::size_t size) {
-  static const ArtifactStore store(fuzz_folder("fuzz_store"));
+  static const ArtifactStore store(fuzz_folder("store"));
   static const Recipe recipe{"fuse", "tsdf", "v1", {{"voxel_m", 0.004}}, 7, {"aa", "bb"}};
   static const auto folder = store.folder(recipe);
   static const std::uint8_t bytes[] = "the bytes";

@@ -162,6 +162,24 @@ TEST_F(StoreTest, RunnerRunsAStageOnceAndOnlyAgainWhenSomethingChanged) {
   EXPECT_THROW(StageRunner(options, store, {}).run<Double>("double", input), InputError);
 }
 
+TEST_F(StoreTest, AGivenResultStandsInForItsStage) {
+  ArtifactStore store(folder_);
+  const LazyArtifact<Number> input("hash of three", [] { return Number{3}; });
+  const ReconstructionOptions options;
+  GivenArtifacts given;
+  given.give<Double>("first", {100});
+  calls = 0;
+  StageRunner runner(options, store, {}, given);
+  const auto first = runner.run<Double>("first", input);
+  EXPECT_EQ(first.get().value, 100);
+  EXPECT_EQ(calls, 0);
+  EXPECT_EQ(runner.run<Double>("second", first).get().value, 200);  // those that follow go by it
+  EXPECT_EQ(runner.records().front().recipe.variant, "given");
+  EXPECT_FALSE(runner.records().front().reused);
+  EXPECT_EQ(StageRunner(options, store, {}, given).run<Double>("first", input).content_hash(), first.content_hash());
+  EXPECT_EQ(StageRunner(options, store, {}).run<Double>("first", input).get().value, 6);  // and no other run
+}
+
 TEST(Options, UnknownStagesVariantsAndParametersAreNamed) {
   ReconstructionOptions options;
   options.variants["fuze"] = "tsdf";

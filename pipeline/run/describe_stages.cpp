@@ -41,6 +41,12 @@ std::vector<StageDescription> describe_stages() {
   return result;
 }
 
+void choose_variant(ReconstructionOptions& options, const std::string& stage, const std::string& variant) {
+  std::string& chosen = options.variants[stage];
+  if (chosen != variant) options.values.erase(stage);
+  chosen = variant;
+}
+
 void check_options(const ReconstructionOptions& options) {
   std::map<std::string, AnyStage> stages;
   for (auto& stage : all_stages()) stages.emplace(stage.description.name, std::move(stage));

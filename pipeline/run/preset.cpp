@@ -19,51 +19,28 @@ fs::path presets_folder() {
   return {};
 }
 
-bool is_file_name(const std::string& text) {
-  return text.find('/') != text.npos || fs::path(text).extension() == ".toml";
-}
-
 std::vector<std::string> names_of(const StageDescription& stage) {
   std::vector<std::string> names;
   for (const auto& variant : stage.variants) names.push_back(variant.name);
   return names;
 }
 
-// Takes a parameter's value as it is described, with its type and range.
-struct TakeField {
-  TomlSection& section;
-  const FieldInfo& field;
-  FieldValue operator()(bool value) const {
-    section(field.name.c_str(), value, "");
-    return value;
-  }
-  FieldValue operator()(int value) const {
-    section(field.name.c_str(), value, std::get<int>(field.minimum), std::get<int>(field.maximum), field.unit.c_str(),
-            "");
-    return value;
-  }
-  FieldValue operator()(double value) const {
-    section(field.name.c_str(), value, std::get<double>(field.minimum), std::get<double>(field.maximum),
-            field.unit.c_str(), "");
-    return value;
-  }
-  FieldValue operator()(std::string value) const {
-    section(field.name.c_str(), value, field.choices, "");
-    return value;
-  }
-};
-
 FieldValues read_values(TomlSection& section, const StageDescription& stage, const std::string& variant) {
   FieldValues values;
   for (const auto& described : stage.variants) {
     if (described.name != variant) continue;
     for (const auto& field : described.fields)
-      if (section.has(field.name.c_str())) values[field.name] = std::visit(TakeField{section, field}, field.value);
+      if (const auto* node = section.find(field.name.c_str()))
+        values[field.name] = checked_value(*node, stage.name + "." + field.name, field);
   }
   return values;
 }
 
 }  // namespace
+
+bool is_preset_file(const std::string& name_or_file) {
+  return name_or_file.find('/') != name_or_file.npos || fs::path(name_or_file).extension() == ".toml";
+}
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
@@ -77,7 +54,7 @@ std::vector<std::string> preset_names() {
 
 Preset read_preset(const std::string& name_or_file) {
   fs::path file = name_or_file;
-  if (!is_file_name(name_or_file)) {
+  if (!is_preset_file(name_or_file)) {
     const auto names = preset_names();
     std::string known;
     for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;

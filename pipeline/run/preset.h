@@ -16,7 +16,10 @@ struct Preset {
   std::map<std::string, FieldValues> values;
 };
 
-// A preset that comes with the program, by name, or a file of one's own: what ends in .toml or holds a slash. Throws
+// Whether a preset is asked for by its file: what ends in .toml or holds a slash. Anything else is a name.
+bool is_preset_file(const std::string& name_or_file);
+
+// A preset that comes with the program, by name, or a file of one's own. Throws
 // InputError: a name that is not known (with those that are); in the file, with line and column, a stage, variant or
 // parameter that is not known, or a value out of range.
 Preset read_preset(const std::string& name_or_file);

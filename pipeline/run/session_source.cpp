@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "pipeline/reconstruct.h"
+#include "scenes/folder_hash.h"
 #include "scenes/hash.h"
 
 namespace dressform {
@@ -11,20 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Hash over the names and bytes of a folder's files: a scan keeps its hash when only other parts of a session change,
-// so that captures of other clothes on the same mannequin share its model.
-std::string folder_hash(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  std::string text;
-  for (const auto& name : names) text += name + " " + hash_file(folder / name) + "\n";
-  return hash_hex(text);
-}
-
+// A scan has a hash of its own, which stays when only other parts of a session change: captures of other clothes on the
+// same mannequin share its model.
 LazyArtifact<DepthScan> scan_of(const fs::path& folder, const LazyArtifact<CaptureSession>& session,
                                 const std::string& scan, const std::string& sensor) {
-  return {hash_hex(sensor + " " + folder_hash(folder / scan)),
+  return {hash_hex(sensor + " " + hash_folder(folder / scan)),
           [session, scan] { return session.get().scans.at(scan); }};
 }
 

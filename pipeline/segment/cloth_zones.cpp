@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/segment/view_models.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -16,11 +17,10 @@ constexpr std::size_t kLeastSeen = 10;               // pixels of a direction, t
 constexpr float kForeignNats = -1;                   // against uniform: colours that the top does not have
 constexpr int kStrays = 50;                          // one pixel of so many may lie beyond an end
 
-// The height below which one of kStrays lies; reorders the values, of which there is one at least.
-float low_end(std::vector<float>& heights) {
-  const auto at = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / kStrays);
-  std::nth_element(heights.begin(), at, heights.end());
-  return *at;
+// The height below which one of kStrays lies, of one value at least.
+float low_end(std::vector<float> heights) {
+  const std::size_t strays = heights.size() / kStrays;
+  return nth_value(std::move(heights), strays);
 }
 
 // Cloth low on the legs, whatever its length: the lower 60 % of what hangs more than a hand below the crotch.
@@ -33,7 +33,7 @@ double sure_bottom_height(const std::vector<ViewEvidence>& views, const std::vec
       if (y < limbs.crotch_y) heights.push_back(y);
     });
   }
-  const double lowest = heights.empty() ? limbs.crotch_y : low_end(heights);
+  const double lowest = heights.empty() ? limbs.crotch_y : low_end(std::move(heights));
   const double hand = kHand * (limbs.top_y - limbs.floor_y);
   return std::min(limbs.crotch_y - hand, lowest + kLowPart * (limbs.crotch_y - lowest));
 }
@@ -82,7 +82,7 @@ std::vector<cv::Mat> with_lower_end(std::vector<cv::Mat> zones, const std::vecto
   each([](uchar&, float y, std::vector<float>& own) { own.push_back(y); });
   for (auto& own : heights)
     if (own.size() >= kLeastSeen)
-      own = {low_end(own)};
+      own = {low_end(std::move(own))};
     else
       own.clear();
   each([](uchar& zone, float y, const std::vector<float>& lowest) {

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 
 const float kShadowUnits = 3;
@@ -14,10 +16,9 @@ namespace {
 
 constexpr float kDarkestShadow = 0.25f, kBrightest = 1.1f;  // gains that shadows and reflections may have
 
-float median(std::vector<float>& values, float otherwise) {
-  if (values.size() < 100) return otherwise;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
+float median_of_enough(std::vector<float> values, float otherwise) {
+  constexpr std::size_t kEnough = 100;  // pixels: fewer may be of one thing that changed
+  return values.size() < kEnough ? otherwise : median(std::move(values));
 }
 
 struct Match {
@@ -39,13 +40,13 @@ Match match_exposure(const cv::Mat& dressed, const cv::Mat& naked, const cv::Mat
         ratios[k].push_back(static_cast<float>(a[k]) / static_cast<float>(b[k]));
   });
   Match match;
-  for (int k = 0; k < 3; ++k) match.gain[k] = std::clamp(median(ratios[k], 1.f), 0.4f, 2.5f);
+  for (int k = 0; k < 3; ++k) match.gain[k] = std::clamp(median_of_enough(std::move(ratios[k]), 1.f), 0.4f, 2.5f);
   each([&](const cv::Vec3b& a, const cv::Vec3b& b) {
     float largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(a[k] - match.gain[k] * b[k]));
     residuals.push_back(largest);
   });
-  match.noise = std::clamp(median(residuals, 2.f), 1.f, 8.f);
+  match.noise = std::clamp(median_of_enough(std::move(residuals), 2.f), 1.f, 8.f);
   return match;
 }
 

@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/imaging/distance_transform.h"
+#include "scenes/small_solvers.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -51,9 +53,7 @@ cv::Mat near_plane(const cv::Mat& nats, const std::vector<int>& curve, int band_
     const double angle = 2 * M_PI * c / static_cast<double>(curve.size());
     return Eigen::Vector3d(1, std::cos(angle), std::sin(angle));
   };
-  std::vector<int> sorted = curve;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  Eigen::Vector3d plane(sorted[sorted.size() / 2], 0, 0);
+  Eigen::Vector3d plane(median(curve), 0, 0);
   for (int round = 0; round < 20; ++round) {
     Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -63,7 +63,7 @@ cv::Mat near_plane(const cv::Mat& nats, const std::vector<int>& curve, int band_
       normal += weight * a * a.transpose();
       right += weight * curve[c] * a;
     }
-    plane = normal.ldlt().solve(right);
+    plane = solve_symmetric(normal, right);
   }
   cv::Mat result = nats.clone();
   for (int r = 0; r < nats.rows; ++r) {

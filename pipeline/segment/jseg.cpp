@@ -24,24 +24,13 @@ struct Named {
 };
 constexpr std::array<Named, 3> kNames = {{{"skin", Label::skin}, {"top", Label::top}, {"bottom", Label::bottom}}};
 
-// The picked mask of this name, or an empty one. Throws InputError for one of another size than the image.
-cv::Mat picked(const Picks& picks, const std::string& name, const cv::Size& size) {
-  const auto found = picks.regions.find(name);
-  if (found == picks.regions.end()) return {};
-  if (found->second.size() != size)
-    throw InputError("picks: " + name, "is " + std::to_string(found->second.cols) + " x " +
-                                           std::to_string(found->second.rows) + "; expected the colour image's size, " +
-                                           std::to_string(size.width) + " x " + std::to_string(size.height));
-  return found->second;
-}
-
 // How many pixels of each region the operator gave each label: by region, then label.
 std::vector<std::array<int, 4>> votes(const LabelMap& map, const cv::Rect& box, const Picks& picks,
                                       const std::string& sensor, const cv::Size& size) {
   std::vector<std::array<int, 4>> result(static_cast<std::size_t>(map.count) + 1, {0, 0, 0, 0});
   bool any = false;
   for (const Named& each : kNames) {
-    const cv::Mat mask = picked(picks, std::string("label_") + each.name + "_" + sensor, size);
+    const cv::Mat mask = picked_region(picks, std::string("label_") + each.name + "_" + sensor, size);
     if (mask.empty()) continue;
     any = true;
     const cv::Mat crop = mask(box);
@@ -75,7 +64,7 @@ cv::Mat of_label(const LabelMap& map, const std::vector<std::array<int, 4>>& vot
 // What of a garment lies outside the region that the operator drew round it is an artefact, as in figures 3.8 and 3.9.
 void drop_artefacts(const Picks& picks, const std::string& garment, const std::string& sensor, const cv::Rect& box,
                     const cv::Size& size, cv::Mat& mask) {
-  const cv::Mat region = picked(picks, "region_" + garment + "_" + sensor, size);
+  const cv::Mat region = picked_region(picks, "region_" + garment + "_" + sensor, size);
   if (!region.empty()) mask.setTo(0, region(box) == 0);
 }
 

@@ -9,6 +9,7 @@
 #include "pipeline/segment/cloth_zones.h"
 #include "pipeline/segment/color_change.h"
 #include "pipeline/segment/view_models.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -46,10 +47,7 @@ struct Collected {
 void finish(RegionFacts& facts, Collected& of, double pixel_mm) {
   facts.area_mm2 = of.pixels * pixel_mm * pixel_mm;
   if (of.places > 0) facts.height_m = of.height / of.places;
-  if (!of.offsets.empty()) {
-    std::nth_element(of.offsets.begin(), of.offsets.begin() + of.offsets.size() / 2, of.offsets.end());
-    facts.offset_mm = of.offsets[of.offsets.size() / 2];
-  }
+  if (!of.offsets.empty()) facts.offset_mm = median(std::move(of.offsets));
   if (of.known >= kLeastKnown) facts.unchanged = static_cast<double>(of.unchanged) / static_cast<double>(of.known);
   facts.exposed = of.exposed / of.pixels;
   facts.sleeve = of.sleeve / of.pixels;

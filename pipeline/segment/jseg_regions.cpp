@@ -80,9 +80,12 @@ Parted part(const Parted& before, const ColorClasses& colors, Pass& pass) {
 }
 
 // One finer scale for regions that are large enough for it and uneven by themselves: a texture that looks alike all
-// over would come apart into its elements. None for the others.
+// over would come apart into its elements. None for the others; J, which costs most, is not asked of those too small.
 void go_finer(Parted& regions, const ColorClasses& colors, double uneven) {
   const auto sizes = sizes_of(regions.map);
+  for (int label = 1; label <= regions.map.count; ++label)
+    if (const int scale = regions.scale[label]; scale < 2 || sizes[label] < least_region_px(scale - 1))
+      regions.scale[label] = 0;
   std::vector<double> sums(sizes.size(), 0);
   for (int scale = 2; scale <= kJsegScales; ++scale) {
     const cv::Mat chosen = of_scale(regions, scale);
@@ -92,9 +95,8 @@ void go_finer(Parted& regions, const ColorClasses& colors, double uneven) {
       for (int x = 0; x < j.cols; ++x) sums[chosen.at<int>(y, x)] += j.at<float>(y, x);
   }
   for (int label = 1; label <= regions.map.count; ++label) {
-    const int finer = regions.scale[label] - 1;
-    const bool chosen = finer >= 1 && sizes[label] >= least_region_px(finer) && sums[label] > uneven * sizes[label];
-    regions.scale[label] = chosen ? finer : 0;
+    int& scale = regions.scale[label];
+    scale = scale > 0 && sums[label] > uneven * sizes[label] ? scale - 1 : 0;
   }
 }
 

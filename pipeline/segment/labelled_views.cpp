@@ -39,10 +39,7 @@ std::vector<Vector3d> places(const std::vector<ViewEvidence>& views, const std::
 }
 
 GarmentLayout layout_of(const FoundKind& found, const std::vector<Vector3d>& points, const NakedBody& body) {
-  GarmentLayout layout;
-  layout.kind = found.kind;
-  layout.sure_kind = found.sure;
-  return with_ends(std::move(layout), points, body.query, body.limbs);
+  return with_ends(with_kind({}, found, body.limbs), points, body.query, body.limbs);
 }
 
 cv::Size color_size(const CaptureSession& session, const Calibration& calibration, const std::string& sensor) {

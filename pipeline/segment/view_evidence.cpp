@@ -10,6 +10,7 @@
 #include "pipeline/imaging/color_histogram.h"
 #include "pipeline/imaging/color_mapping.h"
 #include "pipeline/segment/color_change.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -98,11 +99,6 @@ ExposedSkin exposed_skin(uchar code, float limb_end) {
   return ExposedSkin::none;
 }
 
-float median(std::vector<float> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 // Head and hands are bare: where they changed depth, the mannequin moved.
 bool mannequin_moved(const DepthFacts& facts, double limit_mm) {
   std::vector<float> shifts;
@@ -113,7 +109,7 @@ bool mannequin_moved(const DepthFacts& facts, double limit_mm) {
       if (const float shift = facts.shift_mm.at<float>(y, x); !std::isnan(shift)) shifts.push_back(std::abs(shift));
     }
   }
-  return shifts.size() >= 30 && median(shifts) > limit_mm;
+  return shifts.size() >= 30 && median(std::move(shifts)) > limit_mm;
 }
 
 // The same camera sees the same place without clothes: free of registration errors, so it is the better offset.

@@ -6,6 +6,8 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -72,8 +74,8 @@ double pixel_size_mm(const ViewEvidence& view) {
   }
   if (sizes.empty()) return 2;
   // The smaller ones face the camera.
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 4, sizes.end());
-  return std::max(0.2, static_cast<double>(sizes[sizes.size() / 4]));
+  const std::size_t quarter = sizes.size() / 4;
+  return std::max(0.2, static_cast<double>(nth_value(std::move(sizes), quarter)));
 }
 
 void remove_specks(cv::Mat& mask, const cv::Mat& body, double speck_mm2, double px_mm) {

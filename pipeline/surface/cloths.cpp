@@ -13,10 +13,8 @@ namespace {
 // unless the pixels were surer of that.
 GarmentLayout refined(GarmentLayout layout, const PointCloud& cloud, const MeshQuery& naked, const Landmarks& limbs) {
   if (!layout.upper())
-    if (const FoundKind found = bottom_kind(cloud.points, limbs); found.sure > layout.sure_kind) {
-      layout.kind = found.kind;
-      layout.sure_kind = found.sure;
-    }
+    if (const FoundKind found = bottom_kind(cloud.points, limbs); found.sure > layout.sure_kind)
+      layout = with_kind(std::move(layout), found, limbs);
   return with_ends(std::move(layout), cloud.points, naked, limbs);
 }
 
@@ -45,10 +43,8 @@ Cloths gather_cloths(const CaptureSession& session, const FilledViews& filled, c
 void take_kind_of_surface(const Landmarks& limbs, ClosedGarment& garment) {
   GarmentLayout& layout = garment.layout;
   if (layout.upper()) return;
-  const FoundKind found = closed_bottom_kind(garment.mesh, limbs, {layout.kind, layout.sure_kind});
-  layout.kind = found.kind;
-  layout.sure_kind = found.sure;
-  for (int side = 0; side < 2; ++side) layout.legs[side].covered = limbs.leg(side) && layout.forked();
+  const FoundKind before{layout.kind, layout.sure_kind};
+  layout = with_kind(std::move(layout), closed_bottom_kind(garment.mesh, limbs, before), limbs);
 }
 
 ClosedGarments with_order_settled(ClosedGarments closed) {

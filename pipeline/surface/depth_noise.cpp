@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -21,13 +23,10 @@ void add_differences(const cv::Mat& depth_mm, const cv::Point& step, double jump
     }
 }
 
-double spread(std::vector<float>& magnitudes) {
+double spread(std::vector<float> magnitudes) {
   constexpr std::size_t kEnough = 300;
   if (magnitudes.size() < kEnough) return 0;
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  constexpr double kNormal = 1.4826;
-  return kNormal * *middle / std::sqrt(20.0);  // 1 + 9 + 9 + 1
+  return kSigmaPerMedianDeviation * median(std::move(magnitudes)) / std::sqrt(20.0);  // 1 + 9 + 9 + 1
 }
 
 }  // namespace
@@ -39,7 +38,7 @@ double depth_noise_mm(const std::vector<cv::Mat>& images, double jump_mm) {
     add_differences(image, {apart, 0}, jump_mm, along_rows);
     add_differences(image, {0, apart}, jump_mm, along_columns);
   }
-  const double rows = spread(along_rows), columns = spread(along_columns);
+  const double rows = spread(std::move(along_rows)), columns = spread(std::move(along_columns));
   return rows > 0 && columns > 0 ? std::min(rows, columns) : std::max(rows, columns);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "pipeline/geometry/sector.h"
+#include "scenes/statistics.h"
 
 namespace dressform {
 namespace {
@@ -93,8 +94,7 @@ void carry(const GarmentCloud& cloud, const End& end, const std::vector<int>& in
   std::vector<double> along;
   for (const int i : indices) along.push_back(end.along_of(cloud.cloud.points[i]));
   if (along.size() < kFewest) return;
-  std::nth_element(along.begin(), along.end() - 2, along.end());  // but for a stray
-  const double last = *(along.end() - 2);
+  const double last = nth_value(along, along.size() - 2);  // but for a stray
   if (last < end.along - kEnds_m) return;
   std::vector<int> band;
   for (const int i : indices)

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/geometry/point_tree.h"
 #include "pipeline/imaging/color_mapping.h"
 #include "pipeline/surface/depth_noise.h"
 
@@ -18,17 +18,6 @@ constexpr double kMadeUpWeight = 0.15;
 constexpr double kAboveFloor_m = 0.03;   // lower points may be the floor
 constexpr double kAtAnkles_m = 0.10;     // farthest off the legs that depth without colour counts as cloth
 constexpr double kLargestShift_mm = 10;  // smoothing moves no depth further
-
-struct Nearest {
-  const std::vector<Vector3d>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Nearest>, Nearest, 3>;
 
 // 255 at pixels beside a jump of the scene's depth, and at garment pixels with hardly any garment around them.
 cv::Mat unreliable(const cv::Mat& garment_mm, const cv::Mat& scene_mm, double jump_mm) {
@@ -230,14 +219,12 @@ std::vector<char> plausible(const GarmentCloud& cloud, const std::vector<DepthVi
 std::vector<char> statistical_inliers(const std::vector<Vector3d>& points, int neighbours, double sigmas) {
   std::vector<char> keep(points.size(), 1);
   if (static_cast<int>(points.size()) <= neighbours) return keep;
-  const Nearest adaptor{points};
-  const Tree tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const PointTree tree(points);
   std::vector<double> mean(points.size());
-  std::vector<std::uint32_t> index(neighbours + 1);
-  std::vector<double> squared(neighbours + 1);
+  std::vector<double> squared;
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t found = tree.knnSearch(points[i].data(), neighbours + 1, index.data(), squared.data());
+    const std::size_t found = tree.nearest_squared(points[i], neighbours + 1, squared);
     for (std::size_t k = 0; k < found; ++k) mean[i] += std::sqrt(squared[k]) / neighbours;
     sum += mean[i];
     squares += mean[i] * mean[i];

@@ -24,9 +24,11 @@ ClosedGarments run(const std::string& variant, const figure::Capture& c, const F
                                   values, 1);
 }
 
-// Where no figure is asked for, a coarser octree does.
+// Where no figure is asked for, a coarser octree or lattice does.
 FieldValues coarse(const std::string& variant) {
-  return variant == "poisson" ? FieldValues{{"depth", 6}} : FieldValues{};
+  if (variant == "layer") return {};
+  if (variant == "poisson") return {{"depth", 6}};
+  return {{variant == "tsdf" ? "voxel_m" : "step_m", 0.012}};
 }
 
 // Distances of vertices to the true cloth, ends and their margins left out.

@@ -3,13 +3,6 @@
 namespace dressform {
 namespace {
 
-ViewParams as_photographed() {
-  ViewParams view;
-  view.denoise = 0;
-  view.chroma_px = 0;
-  return view;
-}
-
 struct BestViewParams {
   ViewParams view = as_photographed();
   LabelParams label;

@@ -14,11 +14,12 @@ namespace dressform {
 namespace {
 
 constexpr float kFar = 1e6f;
-constexpr double kNearest_m = 0.3;   // no camera stands nearer to a garment
-constexpr double kUsual_m = 2;       // distance to a garment that has no vertex
-constexpr double kInFront_m = 0.05;  // z from which a point is before the camera
-constexpr double kSeen = 0.5;        // trust from which a pixel counts for the view's brightness
-constexpr double kChromaRange = 6;   // of luma, over its noise, within which chroma is shared
+constexpr double kNearest_m = 0.3;      // no camera stands nearer to a garment
+constexpr double kUsual_m = 2;          // distance to a garment that has no vertex
+constexpr double kInFront_m = 0.05;     // z from which a point is before the camera
+constexpr double kSeen = 0.5;           // trust from which a pixel counts for the view's brightness
+constexpr double kNothingHides_m = 10;  // no two surfaces of a capture are that far apart
+constexpr double kChromaRange = 6;      // of luma, over its noise, within which chroma is shared
 
 // Every triangle's z in the camera, nearest first, over the crop.
 cv::Mat depth_of(const ColorView& view, const cv::Rect& crop, const std::vector<const Mesh*>& scenery) {
@@ -152,6 +153,20 @@ void fill_view(ColorView& view, const FilledGarment& filled, const Mesh& garment
 }
 
 }  // namespace
+
+ViewParams as_photographed() {
+  ViewParams view;
+  view.denoise = 0;
+  view.chroma_px = 0;
+  return view;
+}
+
+ViewParams projected_blindly() {
+  ViewParams view = as_photographed();
+  view.filled_trust = 1;
+  view.occluder_gap_m = kNothingHides_m;
+  return view;
+}
 
 bool ColorView::project(const Vector3d& point, Vector2d& pixel, double& z_m) const {
   const Vector3d p = camera_from_model * point;

@@ -19,6 +19,13 @@ struct ViewParams {
   double chroma_px = 2;          // over which chroma is averaged where the luma is alike; 0: none
 };
 
+// Colours as the sensor gave them: neither denoised nor with calmer chroma.
+ViewParams as_photographed();
+
+// The thesis's projection (section 3.5): colours as photographed, filled in ones trusted like those that were seen, and
+// no test of visibility.
+ViewParams projected_blindly();
+
 // One garment in the raw colour image of one registered sensor, cropped to the garment.
 struct ColorView {
   std::string sensor;

@@ -3,16 +3,8 @@
 namespace dressform {
 namespace {
 
-ViewParams as_photographed() {
-  ViewParams view;
-  view.denoise = 0;
-  view.chroma_px = 0;
-  view.filled_trust = 1;
-  return view;
-}
-
 struct FourWayParams {
-  ViewParams view = as_photographed();
+  ViewParams view = projected_blindly();
   GainParams gain;
   LabelParams label;
   AtlasParams atlas;
@@ -30,14 +22,12 @@ void fields(V& v, FourWayParams& p) {
 TexturedGarments four_way(const CaptureSession& session, const Calibration& calibration, const BodyModel& naked,
                           const Registration& registration, const FilledViews& filled, const OpenGarments& opened,
                           const FourWayParams& params) {
-  ViewParams view = params.view;
-  view.occluder_gap_m = 10;  // nothing hides anything
-  auto garments = garment_views(session, calibration, naked, registration, filled, opened, view);
-  garments = levelled_exposure(std::move(garments), params.gain, view);
+  auto garments = garment_views(session, calibration, naked, registration, filled, opened, params.view);
+  garments = levelled_exposure(std::move(garments), params.gain, params.view);
   const auto choose = [&](const GarmentViews& garment, const SurfaceGraph&) {
     return sector_labels(*garment.mesh, garment.views, garment.samples, params.label);
   };
-  return textured(garments, choose, {0, 0}, params.atlas, view);
+  return textured(garments, choose, {0, 0}, params.atlas, params.view);
 }
 
 const Texture::Variant four_way_variant{"four_way", four_way};

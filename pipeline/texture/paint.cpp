@@ -226,6 +226,22 @@ Painted paint(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<Col
   return painted;
 }
 
+cv::Mat paint_vertex_colors(const Mesh& mesh, const Atlas& atlas, const Eigen::MatrixXf& colors) {
+  const TexelGrid grid = rasterized(atlas);
+  cv::Mat color(atlas.size, CV_32FC3, cv::Scalar::all(0)), texture;
+  for (int y = 0; y < color.rows; ++y)
+    for (int x = 0; x < color.cols; ++x) {
+      const int i = grid.triangle.at<int>(y, x);
+      if (i < 0) continue;
+      const cv::Vec3f& b = grid.weights.at<cv::Vec3f>(y, x);
+      const Vector3i& t = mesh.triangles[i];
+      for (int c = 0; c < 3; ++c)
+        color.at<cv::Vec3f>(y, x)[c] = b[0] * colors(t[0], c) + b[1] * colors(t[1], c) + b[2] * colors(t[2], c);
+    }
+  without_gaps(color, grid.triangle >= 0).convertTo(texture, CV_8UC3);
+  return texture;
+}
+
 std::vector<std::array<Vector2f, 3>> texture_coordinates(const Atlas& atlas) {
   std::vector<std::array<Vector2f, 3>> uv(atlas.corners.size());
   for (std::size_t i = 0; i < uv.size(); ++i)

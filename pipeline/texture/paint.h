@@ -20,6 +20,10 @@ Painted paint(const Mesh& mesh, const SurfaceGraph& graph, const std::vector<Col
               const VertexSamples& samples, const Atlas& atlas, const BlendWeights& weights,
               const Eigen::MatrixXf& unlit, const ViewParams& params);
 
+// A texture of colours known at the vertices (vertices x 3, BGR levels), linear over every triangle; gutters and gaps
+// as of paint.
+cv::Mat paint_vertex_colors(const Mesh& mesh, const Atlas& atlas, const Eigen::MatrixXf& colors);
+
 // Texture coordinates (0 to 1) of the corners of an atlas.
 std::vector<std::array<Vector2f, 3>> texture_coordinates(const Atlas& atlas);
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "pipeline/geometry/path_strip.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {

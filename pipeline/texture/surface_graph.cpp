@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "scenes/triangle.h"
+
 namespace dressform {
 namespace {
 
@@ -78,10 +80,7 @@ SurfaceGraph::SurfaceGraph(const Mesh& mesh) : neighbors(mesh.vertices.size()) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
-  for (const Vector3i& t : mesh.triangles) {
-    const Vector3d& a = mesh.vertices[t[0]];
-    triangle_area_m2.push_back(0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm());
-  }
+  triangle_area_m2 = triangle_areas_m2(mesh);
 }
 
 Eigen::MatrixXf spread_over_surface(const SurfaceGraph& graph, Eigen::MatrixXf values, double reach_m) {

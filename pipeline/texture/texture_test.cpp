@@ -69,7 +69,8 @@ TEST_P(EveryVariant, BringsBackTheCheckedTube) {
   EXPECT_EQ(top.mesh.triangles, scene.opened.garments.at("top").mesh.triangles);
   ASSERT_EQ(top.corner_uv.size(), top.mesh.triangles.size());
   ASSERT_EQ(top.texture.type(), CV_8UC3);
-  EXPECT_GT(psnr(top, checks), 18);  // edges of checks are blurred by the pixels
+  // Edges of checks are blurred by the pixels; colours at vertices by the mesh, whose triangles are a third of a check.
+  EXPECT_GT(psnr(top, checks), GetParam() == "vertex_colors" ? 14 : 18);
   EXPECT_LT(result.unseen_part.at("top"), 0.03);
 }
 

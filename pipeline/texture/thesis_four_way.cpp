@@ -11,6 +11,7 @@
 #include "pipeline/texture/picked_parts.h"
 #include "scenes/error.h"
 #include "scenes/picks.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {
@@ -19,17 +20,8 @@ constexpr int kMargin_px = 4;      // between photographs, in their own colour, 
 constexpr int kNoTexture_px = 16;  // width of the grey that a garment without any view gets
 const cv::Scalar kGrey(128, 128, 128);
 
-ViewParams as_photographed() {
-  ViewParams view;
-  view.denoise = 0;
-  view.chroma_px = 0;
-  view.filled_trust = 1;
-  view.occluder_gap_m = 10;  // nothing hides anything
-  return view;
-}
-
 struct ThesisFourWayParams {
-  ViewParams view = as_photographed();
+  ViewParams view = projected_blindly();
   GainParams gain;
   PickedPartsParams parts;
   int largest_px = 4096;
@@ -135,8 +127,7 @@ TexturedMesh projected_parts(const GarmentViews& garment, const std::vector<std:
     const ColorView& view = garment.views[view_of[t]];
     const Vector3i& corners = mesh.triangles[t];
     result.corner_uv[t] = projected(view, map.left_px[view_of[t]], map, mesh, corners);
-    const Vector3d& a = mesh.vertices[corners[0]];
-    const double area = (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a).norm() / 2;
+    const double area = triangle_area_m2(mesh, corners);
     whole += area;
     if (shown(view, mesh, corners, params.view)) seen += area;
   }

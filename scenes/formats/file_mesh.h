@@ -47,6 +47,9 @@ struct FileMesh {
   bool may_be_split = false;                     // the format repeats a vertex for each texture coordinate it has
 };
 
+// Leaves the triangles for which `kept` (one each) is not zero, with all that they carry; vertices stay.
+void keep_triangles(const std::vector<char>& kept, FileMesh& file);
+
 // Whether colours, texture coordinates and materials are wanted as well, or the surface alone.
 enum class Wanted { shape, look };
 

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "scenes/error.h"
 #include "scenes/file_bytes.h"
 #include "scenes/formats/file_mesh.h"
 #include "scenes/formats/glb_data.h"
 #include "scenes/formats/glb_material.h"
+#include "scenes/formats/glb_nodes.h"
 #include "scenes/srgb.h"
 
 namespace dressform {
@@ -17,7 +19,6 @@ namespace {
 using Eigen::Matrix4d;
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-constexpr int kDeepest = 64;  // nodes within nodes; rigs of whole figures have about twenty
 
 // Images are kept as they are in the file; whoever needs one decodes it.
 bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
@@ -27,29 +28,18 @@ bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*,
   return true;
 }
 
-Matrix4d local_transform(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return Eigen::Map<const Matrix4d>(node.matrix.data());  // both column-major
-  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  if (node.translation.size() == 3) motion.translate(Eigen::Map<const Vector3d>(node.translation.data()));
-  if (node.rotation.size() == 4) {
-    const auto& q = node.rotation;  // x, y, z, w
-    motion.rotate(Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized());
-  }
-  if (node.scale.size() == 3) motion.scale(Eigen::Map<const Vector3d>(node.scale.data()));
-  return motion.matrix();
-}
-
 class Reader {
  public:
   Reader(const std::filesystem::path& path, const tinygltf::Model& model, Wanted wanted)
-      : path_(path), model_(model), data_(path.string(), model), wanted_(wanted), placed_(model.nodes.size(), false) {
-    world_from_node_.assign(model.nodes.size(), Matrix4d::Identity());
-  }
+      : path_(path),
+        model_(model),
+        data_(path.string(), model),
+        wanted_(wanted),
+        world_from_node_(placed_nodes(model, data_)) {}
 
   FileMesh read() {
-    for (int node : roots()) place_node(node, Matrix4d::Identity(), 0);
     for (int n = 0; n < static_cast<int>(model_.nodes.size()); ++n)
-      if (placed_[n] && model_.nodes[n].mesh >= 0) read_node(n);
+      if (world_from_node_[n] && model_.nodes[n].mesh >= 0) read_node(n);
     result_.may_be_split = true;
     if (!any_uv_) result_.corner_uv.clear();
     if (!any_color_) result_.corner_color.clear();
@@ -57,27 +47,6 @@ class Reader {
   }
 
  private:
-  std::vector<int> roots() const {
-    if (!model_.scenes.empty()) return data_.at(model_.scenes, std::max(0, model_.defaultScene), "scene").nodes;
-    std::vector<char> is_child(model_.nodes.size(), 0);
-    for (const auto& node : model_.nodes)
-      for (int child : node.children)
-        if (child >= 0 && child < static_cast<int>(is_child.size())) is_child[child] = 1;
-    std::vector<int> result;
-    for (int n = 0; n < static_cast<int>(is_child.size()); ++n)
-      if (!is_child[n]) result.push_back(n);
-    return result;
-  }
-
-  void place_node(int index, const Matrix4d& world_from_parent, int depth) {
-    const tinygltf::Node& node = data_.at(model_.nodes, index, "node");
-    if (placed_[index]) data_.fail("node " + std::to_string(index) + " is reached twice; expected a tree of nodes");
-    if (depth > kDeepest) data_.fail("the nodes are nested more than " + std::to_string(kDeepest) + " deep");
-    placed_[index] = true;
-    world_from_node_[index] = world_from_parent * local_transform(node);
-    for (int child : node.children) place_node(child, world_from_node_[index], depth + 1);
-  }
-
   void read_node(int index) {
     const tinygltf::Node& node = model_.nodes[index];
     const tinygltf::Mesh& mesh = data_.at(model_.meshes, node.mesh, "mesh");
@@ -150,8 +119,8 @@ class Reader {
     for (std::size_t j = 0; j < skin.joints.size(); ++j) {
       const int joint = skin.joints[j];
       data_.at(model_.nodes, joint, "joint");
-      if (!placed_[joint]) data_.fail("joint " + std::to_string(joint) + " of a skin is not in the scene");
-      motions.push_back(world_from_node_[joint]);
+      if (!world_from_node_[joint]) data_.fail("joint " + std::to_string(joint) + " of a skin is not in the scene");
+      motions.push_back(*world_from_node_[joint]);
       if (!inverse.empty()) motions.back() *= Eigen::Map<const Matrix4d>(inverse.data() + 16 * j);
     }
     return motions;
@@ -194,8 +163,8 @@ class Reader {
     const int first = static_cast<int>(result_.mesh.vertices.size());
     for (std::size_t i = 0; i < local.size(); ++i)
       result_.mesh.vertices.push_back(
-          ((skinned.empty() ? world_from_node_[node] : skinned[i]) * local[i].homogeneous()).head<3>());
-    const Matrix4d& motion = skinned.empty() ? world_from_node_[node] : skinned.front();
+          ((skinned.empty() ? *world_from_node_[node] : skinned[i]) * local[i].homogeneous()).head<3>());
+    const Matrix4d& motion = skinned.empty() ? *world_from_node_[node] : skinned.front();
     add_triangles(primitive, first, local.size(), motion.topLeftCorner<3, 3>().determinant() < 0);
   }
 
@@ -270,8 +239,7 @@ class Reader {
   const tinygltf::Model& model_;
   GlbData data_;
   Wanted wanted_;
-  std::vector<bool> placed_;
-  std::vector<Matrix4d> world_from_node_;
+  std::vector<std::optional<Matrix4d>> world_from_node_;  // absent: in no scene
   std::map<int, int> numbers_;
   std::vector<GlbMaterial> glb_materials_;  // as many as the result's
   FileMesh result_;

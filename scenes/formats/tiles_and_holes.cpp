@@ -193,22 +193,9 @@ void cut_holes(const std::string& where, const std::vector<cv::Mat>& opacity, Fi
                                 ", material \"" + file.materials[file.material[first_mixed]].name +
                                 "\") are partly holes or translucent in the image's alpha (opacity); expected opaque "
                                 "cloth, or holes that end where triangles end");
-  std::size_t to = 0;
-  for (std::size_t t = 0; t < kept.size(); ++t) {
-    if (!kept[t]) continue;
-    file.mesh.triangles[to] = file.mesh.triangles[t];
-    file.material[to] = file.material[t];
-    if (!file.corner_uv.empty()) file.corner_uv[to] = file.corner_uv[t];
-    if (!file.corner_color.empty()) file.corner_color[to] = file.corner_color[t];
-    ++to;
-  }
-  if (to == 0) throw InputError(where, "is a hole everywhere (alpha); expected opaque cloth");
-  if (to == kept.size()) return;
-  file.mesh.triangles.resize(to);
-  file.material.resize(to);
-  if (!file.corner_uv.empty()) file.corner_uv.resize(to);
-  if (!file.corner_color.empty()) file.corner_color.resize(to);
-  file.mesh = compacted(file.mesh);
+  keep_triangles(kept, file);
+  if (file.mesh.triangles.empty()) throw InputError(where, "is a hole everywhere (alpha); expected opaque cloth");
+  if (file.mesh.triangles.size() < kept.size()) file.mesh = compacted(file.mesh);
 }
 
 }  // namespace dressform

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "scenes/error.h"
 #include "scenes/image_file.h"
@@ -145,12 +146,13 @@ void add_stream(Recording& recording, const std::vector<StampedFile>& depth, boo
   if (folder.empty()) return;
   const NumberedFiles stream = numbered_files(folder);
   const double tolerance_s = timed && stream.timed ? 1e-3 * params.tolerance_ms : 0;
+  std::map<fs::path, const RecordedFrame*> by_depth;  // those that the streams before left
+  for (const auto& frame : recording.frames) by_depth.emplace(frame.depth, &frame);
   std::vector<RecordedFrame> kept;
   for (const auto& [a, b] : associate(depth, stream.files, tolerance_s)) {
-    const auto frame = std::find_if(recording.frames.begin(), recording.frames.end(),
-                                    [&, at = a](const auto& each) { return each.depth == depth[at].path; });
-    if (frame == recording.frames.end()) continue;
-    kept.push_back(*frame);
+    const auto frame = by_depth.find(depth[a].path);
+    if (frame == by_depth.end()) continue;
+    kept.push_back(*frame->second);
     kept.back().*image = stream.files[b].path;
   }
   if (2 * kept.size() < recording.frames.size())

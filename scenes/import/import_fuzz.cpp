@@ -3,7 +3,7 @@
 
 #include "scenes/image_file.h"
 #include "scenes/import/import.h"
-#include "scenes/session_fuzz.h"
+#include "scenes/testing/fuzz_file.h"
 
 namespace {
 
@@ -18,7 +18,7 @@ const Target kTargets[] = {{"tum", "depth.txt"},
                            {"generic", "layout.toml"}};
 
 std::filesystem::path recording() {
-  const auto folder = dressform::fuzz_folder("fuzz_recording");
+  const auto folder = dressform::fuzz_folder("recording");
   const cv::Mat depth(288, 320, CV_16UC1, cv::Scalar(1500));
   std::filesystem::create_directories(folder / "depth");
   dressform::write_png(folder / "depth/0.png", depth);

@@ -1,10 +1,11 @@
 #include "scenes/import/rational_lens.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "scenes/small_solvers.h"
 
 namespace dressform {
 namespace {
@@ -48,7 +49,7 @@ PolynomialFit with_polynomial_lens(const Camera& camera, const RationalLens& len
     right += r * r * factor(lens.radial, r * r) * powers(r);
     area += r;
   }
-  const Eigen::Vector4d found = normal.ldlt().solve(right);
+  const Eigen::Vector4d found = solve_symmetric(normal, right);
   for (const double r : radii) {
     const double off_px = camera.fx * (powers(r).dot(found) - r * factor(lens.radial, r * r));
     fit.rms_px += r / area * off_px * off_px;

@@ -17,3 +17,10 @@ function(dressform_unity target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
+
+# Other people's headers, read once for a target (scripts/cmake/*_headers.h).
+function(dressform_precompiled target header)
+  if(DRESSFORM_UNITY)
+    target_precompile_headers(${target} PRIVATE ${CMAKE_SOURCE_DIR}/scripts/cmake/${header})
+  endif()
+endfunction()

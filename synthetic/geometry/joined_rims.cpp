@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "scenes/disjoint_sets.h"
-#include "synthetic/geometry/mesh_sides.h"
+#include "scenes/mesh_sides.h"
 
 namespace dressform {
 namespace {

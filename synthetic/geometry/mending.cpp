@@ -9,8 +9,9 @@
 
 #include "scenes/disjoint_sets.h"
 #include "scenes/error.h"
+#include "scenes/mesh_sides.h"
+#include "scenes/triangle.h"
 #include "synthetic/geometry/joined_rims.h"
-#include "synthetic/geometry/mesh_sides.h"
 
 namespace dressform {
 namespace {
@@ -150,15 +151,11 @@ Sides walk_pieces(const Mesh& mesh, const std::string& where) {
   return result;
 }
 
-double area_of(const Mesh& mesh, const Vector3i& t) {
-  const Vector3d& a = mesh.vertices[t[0]];
-  return 0.5 * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm();
-}
-
 // Numbers pieces by area and returns their areas.
 std::vector<double> sort_pieces(const Mesh& mesh, Sides& sides) {
   std::vector<double> area(static_cast<std::size_t>(sides.pieces), 0), sorted;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area[sides.piece[t]] += area_of(mesh, mesh.triangles[t]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    area[sides.piece[t]] += triangle_area_m2(mesh, mesh.triangles[t]);
   std::vector<int> order(area.size()), rank(area.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return area[a] > area[b]; });
@@ -177,7 +174,7 @@ Vector3d middle_of_largest(const Mesh& mesh, const std::vector<int>& piece) {
   for (std::size_t t = 0; t < piece.size(); ++t) {
     if (piece[t] != 0) continue;
     const Vector3i& c = mesh.triangles[t];
-    const double area = area_of(mesh, c);
+    const double area = triangle_area_m2(mesh, c);
     sum += area / 3 * (mesh.vertices[c[0]] + mesh.vertices[c[1]] + mesh.vertices[c[2]]);
     weight += area;
   }

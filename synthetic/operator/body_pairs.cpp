@@ -35,23 +35,13 @@ std::vector<double> trunk_heights(const BodyLandmarks& m) {
   return heights;
 }
 
-Vector3d trunk_middle(const Body& body, double y) {
-  const Vector3d corners[] = {joint(body, "SpineBase"), joint(body, "SpineMid"), joint(body, "SpineShoulder"),
-                              joint(body, "Neck")};
-  int i = 1;
-  while (i < 3 && corners[i].y() < y) ++i;
-  const Vector3d &low = corners[i - 1], &high = corners[i];
-  const double t = std::clamp((y - low.y()) / std::max(high.y() - low.y(), 1e-6), 0.0, 1.0);
-  const Vector3d middle = low + t * (high - low);
-  return {middle.x(), y, middle.z()};
-}
-
 void mark_trunk(const Body& body, const RayScene& skin, Places& places) {
+  const RisingAxis middle{
+      {joint(body, "SpineBase"), joint(body, "SpineMid"), joint(body, "SpineShoulder"), joint(body, "Neck")}};
   for (const double y : trunk_heights(body.landmarks))
     for (int k = 0; k < kTrunkAngles; ++k) {
       const double azimuth = 2 * M_PI * (k + 0.5) / kTrunkAngles;
-      places.push_back(
-          struck(skin, trunk_middle(body, y), Vector3d(std::sin(azimuth), 0, std::cos(azimuth)), kTrunkReach_m));
+      places.push_back(struck(skin, middle.at(y), Vector3d(std::sin(azimuth), 0, std::cos(azimuth)), kTrunkReach_m));
     }
 }
 

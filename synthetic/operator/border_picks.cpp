@@ -28,21 +28,8 @@ Vector3d towards(double azimuth_deg) {
   return {std::sin(azimuth), 0, std::cos(azimuth)};
 }
 
-// The middle of the cloth by height: straight between its corners, which rise.
-struct Axis {
-  Line corners;
-  Vector3d at(double y) const {
-    std::size_t i = 1;
-    while (i + 1 < corners.size() && corners[i].y() < y) ++i;
-    const Vector3d &low = corners[i - 1], &high = corners[i];
-    const double t = std::clamp((y - low.y()) / std::max(high.y() - low.y(), 1e-6), 0.0, 1.0);
-    const Vector3d point = low + t * (high - low);
-    return {point.x(), y, point.z()};
-  }
-};
-
 // The cloth that rays from the axis strike first, from below upwards.
-Line wall(const RayScene& cloth, const Axis& axis, double azimuth_deg, double low_m, double high_m) {
+Line wall(const RayScene& cloth, const RisingAxis& axis, double azimuth_deg, double low_m, double high_m) {
   Line line;
   for (double y = low_m; y <= high_m; y += kStep_m)
     if (const auto hit = struck(cloth, axis.at(y), towards(azimuth_deg), kReach_m)) line.push_back(hit->point);
@@ -56,10 +43,9 @@ void end_at(Line& line, const Line& rim, bool front) {
   if ((on_rim - end).norm() < kToRim_m) line.insert(front ? line.begin() : line.end(), on_rim);
 }
 
-const Line* rim_of(const Garment& garment, const char* name) {
-  for (const auto& rim : garment.rims)
-    if (rim.name == name) return &rim.points;
-  return nullptr;
+const Line* line_of(const Garment& garment, const char* rim) {
+  const TruthRim* found = rim_named(garment, rim);
+  return found ? &found->points : nullptr;
 }
 
 double extreme_y(const Line& points, bool highest) {
@@ -78,7 +64,7 @@ using Borders = std::map<std::string, Line>;
 
 // Shirts, dresses, skirts: from the lowest rim to the highest.
 Borders borders_of_trunk(const RayScene& cloth, const Line& upper, const Line& lower) {
-  const Axis axis{{centroid(lower), centroid(upper)}};
+  const RisingAxis axis{{centroid(lower), centroid(upper)}};
   Borders borders;
   for (const auto& corner : kCorners) {
     Line& line = borders[corner.name] =
@@ -114,7 +100,7 @@ Borders borders_of_trousers(const RayScene& cloth, const Mesh& mesh, const Line&
   Line inner;
   for (const double side : {1.0, -1.0}) {
     const Line& ankle = side > 0 ? left : right;
-    const Axis leg{{centroid(ankle), leg_top(mesh, *crotch, middle.x(), side), middle}};
+    const RisingAxis leg{{centroid(ankle), leg_top(mesh, *crotch, middle.x(), side), middle}};
     for (const auto& corner : kCorners) {
       if (side * corner.azimuth_deg < 0) continue;
       Line& line = borders[corner.name] =
@@ -135,8 +121,8 @@ Borders borders_of_trousers(const RayScene& cloth, const Mesh& mesh, const Line&
 
 Borders borders_of(const Garment& garment) {
   const RayScene cloth = alone(garment.textured.mesh);
-  const Line *neck = rim_of(garment, "neck"), *waist = rim_of(garment, "waist"), *hem = rim_of(garment, "hem");
-  const Line *left = rim_of(garment, "left_ankle"), *right = rim_of(garment, "right_ankle");
+  const Line *neck = line_of(garment, "neck"), *waist = line_of(garment, "waist"), *hem = line_of(garment, "hem");
+  const Line *left = line_of(garment, "left_ankle"), *right = line_of(garment, "right_ankle");
   if (waist && left && right) return borders_of_trousers(cloth, garment.textured.mesh, *waist, *left, *right);
   if ((neck || waist) && hem) return borders_of_trunk(cloth, neck ? *neck : *waist, *hem);
   return {};
@@ -175,12 +161,10 @@ void pick_borders(const WornGarments& worn, const std::map<std::string, Seam>& s
       const int count = counts[i++];
       if (line.size() < 2) continue;
       const std::string full = "border_" + slot + "_" + name;
-      Line points = resampled(line, false, count);
+      const Line points = resampled(line, false, count);
       const auto seen = eyes.best(points);
       const SensorSpec& sensor = eyes.main_one(seen);
-      points = eyes.click(points, seen, full);
-      for (auto& point : points) point = sensor.world_from_sensor.inverse() * point;
-      picks.points[full] = {{sensor.name, std::move(points)}};
+      picks.points[full] = {in_frame_of(sensor, eyes.click(points, seen, full))};
     }
   }
 }

@@ -54,6 +54,26 @@ const Vector3d& nearest(const std::vector<Vector3d>& points, const Vector3d& to)
   });
 }
 
+Vector3d RisingAxis::at(double y) const {
+  std::size_t i = 1;
+  while (i + 1 < corners.size() && corners[i].y() < y) ++i;
+  const Vector3d &low = corners[i - 1], &high = corners[i];
+  const double t = std::clamp((y - low.y()) / std::max(high.y() - low.y(), 1e-6), 0.0, 1.0);
+  const Vector3d point = low + t * (high - low);
+  return {point.x(), y, point.z()};
+}
+
+const TruthRim* rim_named(const Garment& garment, const std::string& name) {
+  for (const auto& rim : garment.rims)
+    if (rim.name == name) return &rim;
+  return nullptr;
+}
+
+PickedPoints in_frame_of(const SensorSpec& sensor, std::vector<Vector3d> points) {
+  for (auto& point : points) point = sensor.world_from_sensor.inverse() * point;
+  return {sensor.name, std::move(points)};
+}
+
 Vector3d clicked(const Vector3d& meant, const Vector3d& direction, double sigma_m, Seed seed, std::uint64_t stream,
                  std::uint64_t index) {
   const auto error = normal4(seed, stream, index);

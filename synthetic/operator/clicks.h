@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "scenes/picks.h"
 #include "scenes/scene.h"
 #include "synthetic/capture/ray_scene.h"
+#include "synthetic/garments/garment.h"
 
 namespace dressform {
 
@@ -19,6 +21,18 @@ std::vector<int> shared_out(int count, const std::vector<double>& lengths, int l
 
 // The point of a line's corners that lies nearest.
 const Vector3d& nearest(const std::vector<Vector3d>& points, const Vector3d& to);
+
+// The middle of a body or of cloth by height: straight between corners that rise.
+struct RisingAxis {
+  std::vector<Vector3d> corners;  // two at least
+  Vector3d at(double y) const;    // at the height y; beyond the ends the end's x and z
+};
+
+// The garment's rim of that name; null where it has none.
+const TruthRim* rim_named(const Garment& garment, const std::string& name);
+
+// Points of the world as picked in the frame of a sensor (its infrared camera's).
+PickedPoints in_frame_of(const SensorSpec& sensor, std::vector<Vector3d> points);
 
 // Where `meant` is hit by a hand that misses by normal errors across `direction`, on each axis.
 Vector3d clicked(const Vector3d& meant, const Vector3d& direction, double sigma_m, Seed seed, std::uint64_t stream,

@@ -6,6 +6,7 @@
 
 #include "scenes/label.h"
 #include "scenes/random.h"
+#include "scenes/smooth_block.h"
 
 namespace dressform {
 namespace {
@@ -83,32 +84,14 @@ cv::Mat with_hidden(const cv::Mat& mask, const cv::Mat& behind, Label label) {
   return cracks;
 }
 
-// The square of most even brightness wholly inside the mask; the largest odd size up to 31 that fits. Empty: none.
-cv::Rect smoothest_block(const cv::Mat& color, const cv::Mat& mask, int size) {
-  const cv::Rect around = cv::boundingRect(mask);
-  cv::Mat grey, sum, squares, count;
-  cv::cvtColor(color(around), grey, cv::COLOR_BGR2GRAY);
-  cv::integral(grey, sum, squares, CV_64F, CV_64F);
-  cv::integral(mask(around) / 255, count, CV_32S);
-  const auto total = [size](const auto& at, int x, int y) {
-    return at(y + size, x + size) - at(y, x + size) - at(y + size, x) + at(y, x);
-  };
-  const cv::Mat_<double> sums = sum, square_sums = squares;
-  const cv::Mat_<int> counts = count;
-  const int pixels = size * size;
-  cv::Rect best;
-  double least = INFINITY;
-  for (int y = 0; y + size <= grey.rows; ++y)
-    for (int x = 0; x + size <= grey.cols; ++x) {
-      if (total(counts, x, y) < pixels) continue;
-      const double mean = total(sums, x, y) / pixels, variance = total(square_sums, x, y) / pixels - mean * mean;
-      if (variance >= least) continue;
-      least = variance;
-      best = cv::Rect(around.x + x, around.y + y, size, size);
-    }
-  if (best.empty() && size > kLeastBlock_px)
-    return smoothest_block(color, mask, std::max(size / 2 | 1, kLeastBlock_px));
-  return best;
+// The smoothest block of cloth; smaller ones where none of the thesis's size fits. Empty: none does.
+cv::Rect lending_block(const cv::Mat& color, const cv::Mat& mask) {
+  cv::Rect block;
+  for (int size = kBlock_px; block.empty(); size = std::max(size / 2 | 1, kLeastBlock_px)) {
+    block = smoothest_block(color, mask, size);
+    if (size <= kLeastBlock_px) break;
+  }
+  return block;
 }
 
 void keep(Picks& picks, const std::string& name, const cv::Mat& mask) {
@@ -134,7 +117,7 @@ void draw_regions(const WornGarments& worn, const std::vector<SensorSpec>& rig,
       if (label == Label::skin || cv::countNonZero(mask) == 0) continue;
       const cv::Mat whole = with_hidden(mask, behind, label);
       keep(picks, "region_" + ending, drawn(whole, click_px, seed, "region_" + ending));
-      const cv::Rect block = smoothest_block(shots.at(sensor.name).color, mask, kBlock_px);
+      const cv::Rect block = lending_block(shots.at(sensor.name).color, mask);
       if (block.empty()) continue;
       cv::Mat& smooth = picks.regions["smooth_" + ending] = cv::Mat(mask.size(), CV_8UC1, cv::Scalar(0));
       smooth(block) = 255;

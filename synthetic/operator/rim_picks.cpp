@@ -21,12 +21,6 @@ struct SeenPath {
   }
 };
 
-const TruthRim* rim_named(const Garment& garment, const std::string& name) {
-  for (const auto& rim : garment.rims)
-    if (rim.name == name) return &rim;
-  return nullptr;
-}
-
 // Where the rim of `cover` hides the cloth of `garment`: the cloth's own points nearest to that rim.
 SeenPath under(const Garment& garment, const TruthRim& cover, int count, const Onlookers& eyes) {
   SeenPath path{resampled(cover.points, true, count), {}};
@@ -72,8 +66,7 @@ void pick(const std::string& name, SeenPath path, const Onlookers& eyes, Picks& 
   const SensorSpec& sensor = eyes.main_one(path.eyes);
   path.points = eyes.click(path.points, path.eyes, name);
   bridge(path);
-  for (auto& point : path.points) point = sensor.world_from_sensor.inverse() * point;
-  picks.points[name] = {{sensor.name, std::move(path.points)}};
+  picks.points[name] = {in_frame_of(sensor, std::move(path.points))};
 }
 
 }  // namespace

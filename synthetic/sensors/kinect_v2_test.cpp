@@ -4,43 +4,24 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "synthetic/sensors/bounce_map.h"
-#include "synthetic/sensors/noise_statistics.h"
-#include "synthetic/sensors/test_scenes.h"
+#include "synthetic/sensors/kinect_v2_scenes.h"
 
 // The figures of sensors.md and of Fankhauser et al. 2015, one test a line.
 namespace dressform {
 namespace {
 
-using namespace test_scenes;
-
-Camera full_size() { return usual_camera("kinect_v2"); }
-
-FieldValues with(FieldValues values, const FieldValues& more) {
-  for (const auto& [name, value] : more) values[name] = value;
-  return values;
-}
-// Noise alone: what moves the mean is off.
-FieldValues noise_only(const FieldValues& more = {}) { return with(dressform::noise_only("kinect_v2"), more); }
-// What moves the mean, alone.
-FieldValues noiseless(const FieldValues& more = {}) { return with(without_noise("kinect_v2"), more); }
-
-SensorSetup setup(const FieldValues& values = noise_only()) { return {"kinect_v2", values, full_size()}; }
-
-SensorFrame shoot(const RayScene& scene, const FieldValues& values, Seed seed = 1) {
-  return measure(scene, "kinect_v2", values, seed, 0, full_size());
-}
+using namespace kinect_v2_scenes;
 
 constexpr float white = kWhiteAlbedo;
 
-DepthErrors of_plane(double distance_m, double tilt_deg, float albedo, const FieldValues& values = noise_only()) {
-  return dressform::of_plane(setup(values), distance_m, tilt_deg, albedo);
+DepthErrors of_plane(double distance_m, double tilt_deg, float albedo, const FieldValues& values = noise_only_v2()) {
+  return dressform::of_plane(v2_setup(values), distance_m, tilt_deg, albedo);
 }
 
 // All that the other tests stand on: what is switched off is all there is to switch off.
 TEST(KinectV2, ParametersOfTheMeasurements) {
-  EXPECT_EQ(noise_only().size(), 5u);
-  EXPECT_EQ(noiseless().size(), 8u);
+  EXPECT_EQ(noise_only_v2().size(), 5u);
+  EXPECT_EQ(noiseless_v2().size(), 8u);
 }
 
 TEST(KinectV2, SigmaAtOneMetre) { EXPECT_NEAR(of_plane(1, 0, white).sigma_mm, 1.30, 0.15 * 1.30); }
@@ -60,12 +41,12 @@ TEST(KinectV2, SigmaByAlbedo) {
 
 TEST(KinectV2, SigmaWithoutFilterIsThreeTimesAsLarge) {
   const double filtered = of_plane(2, 0, white).sigma_mm;
-  const double raw = of_plane(2, 0, white, noise_only({{"bilateral", false}, {"edge_filter", false}})).sigma_mm;
+  const double raw = of_plane(2, 0, white, noise_only_v2({{"bilateral", false}, {"edge_filter", false}})).sigma_mm;
   EXPECT_NEAR(raw / filtered, 3, 0.3);
 }
 
 TEST(KinectV2, NoiseAutocorrelation) {
-  const auto correlation = noise_autocorrelation(setup(), 3);
+  const auto correlation = noise_autocorrelation(v2_setup(), 3);
   EXPECT_NEAR(correlation[1], 0.68, 0.05);
   EXPECT_NEAR(correlation[2], 0.31, 0.05);
   EXPECT_NEAR(correlation[3], 0.0, 0.06);
@@ -89,15 +70,16 @@ TEST(KinectV2, HolesByAlbedoAtSeventyFiveDegrees) {
 
 TEST(KinectV2, NoiselessDecodingIsExactOverTheWholeRange) {
   for (double distance_m = 0.5; distance_m <= 4.5; distance_m += 0.125) {
-    const DepthErrors errors = decoding_errors(setup(noiseless({{"minimum_m", 0.4}, {"maximum_m", 4.6}})), distance_m);
+    const DepthErrors errors =
+        decoding_errors(v2_setup(noiseless_v2({{"minimum_m", 0.4}, {"maximum_m", 4.6}})), distance_m);
     EXPECT_LE(errors.worst_mm, 0.52) << distance_m;
     EXPECT_EQ(errors.holes, 0) << distance_m;
   }
 }
 
 TEST(KinectV2, NoiselessDecodingOfASlantedPlane) {
-  const SensorFrame frame = shoot(scene_of(plane(2, 50, 0.8f)), noiseless());
-  const Camera camera = full_size();
+  const SensorFrame frame = shoot_v2(scene_of(plane(2, 50, 0.8f)), noiseless_v2());
+  const Camera camera = full_size_v2();
   for (int y = 20; y < 404; y += 7)
     for (int x = 20; x < 492; x += 5) {
       const double expected_mm = 1000 * true_depth(camera, x, y, 2, 50);
@@ -109,13 +91,13 @@ TEST(KinectV2, NoiselessDecodingOfASlantedPlane) {
 }
 
 TEST(KinectV2, FlyingPixelsAtAWideGap) {
-  const double flying = flying_pixels(setup(), 2.1);
+  const double flying = flying_pixels(v2_setup(), 2.1);
   EXPECT_GE(flying, 0.01);
   EXPECT_LE(flying, 0.24);
 }
 TEST(KinectV2, FlyingPixelsAtANarrowGap) {
   for (const double gap_m : {0.2, 0.25, 0.3}) {
-    const double flying = flying_pixels(setup(), gap_m);
+    const double flying = flying_pixels(v2_setup(), gap_m);
     EXPECT_GE(flying, 0.2) << gap_m;
     EXPECT_LE(flying, 1.4) << gap_m;
   }
@@ -123,7 +105,7 @@ TEST(KinectV2, FlyingPixelsAtANarrowGap) {
 
 // The mean depth error over distance repeats every 3.125 m.
 TEST(KinectV2, WigglingByClip) {
-  const auto wiggle = [](double clip) { return peak_to_peak(wiggle_mm(setup(noiseless({{"clip", clip}})))); };
+  const auto wiggle = [](double clip) { return peak_to_peak(wiggle_mm(v2_setup(noiseless_v2({{"clip", clip}})))); };
   EXPECT_LE(wiggle(1.0), 1.0);  // millimetres are whole
   EXPECT_NEAR(wiggle(0.9), 2.6, 1.0);
   EXPECT_NEAR(wiggle(0.8), 7.7, 1.0);
@@ -138,7 +120,7 @@ TEST(KinectV2, InterferenceByLeak) {
     constexpr int frames = 60;
     for (Seed seed = 1; seed <= frames; ++seed) {
       const SensorFrame frame =
-          measure(scene, "kinect_v2", noiseless({{"interference_chance", 1.0}, {"interference_leak", leak}}), seed);
+          measure(scene, "kinect_v2", noiseless_v2({{"interference_chance", 1.0}, {"interference_leak", leak}}), seed);
       squares += std::pow(frame.depth_mm.at<std::uint16_t>(106, 128) - 2000.0, 2);
     }
     EXPECT_NEAR(std::sqrt(squares / frames), expected, 0.25 * expected) << leak;
@@ -150,7 +132,7 @@ TEST(KinectV2, InterferenceIsSeldom) {
   int disturbed = 0;
   for (Seed seed = 1; seed <= 200; ++seed) {
     const SensorFrame frame =
-        measure(scene, "kinect_v2", noiseless({{"interference_chance", 0.1}, {"interference_leak", 0.2}}), seed, 0,
+        measure(scene, "kinect_v2", noiseless_v2({{"interference_chance", 0.1}, {"interference_leak", 0.2}}), seed, 0,
                 Camera{16, 16, 366, 366, 7.5, 7.5, {}});
     disturbed += frame.depth_mm.at<std::uint16_t>(8, 8) != 2000;
   }
@@ -161,7 +143,7 @@ TEST(KinectV2, InterferenceIsSeldom) {
 TEST(KinectV2, WarmUpFadesInHalfAnHour) {
   const RayScene scene = scene_of(plane(2, 0, white));
   const auto depth = [&](double minutes) {
-    const SensorFrame frame = measure(scene, "kinect_v2", noiseless({{"warm_up_mm", 5.0}, {"minutes_on", minutes}}));
+    const SensorFrame frame = measure(scene, "kinect_v2", noiseless_v2({{"warm_up_mm", 5.0}, {"minutes_on", minutes}}));
     return static_cast<int>(frame.depth_mm.at<std::uint16_t>(106, 128));
   };
   EXPECT_EQ(depth(0), 2005);
@@ -173,7 +155,7 @@ TEST(KinectV2, OffsetBelongsToTheDevice) {
   const RayScene scene = scene_of(plane(2, 0, white));
   const Camera camera = kinect();
   const RayTable rays(camera);
-  const FieldValues values = noiseless({{"offset_mm", -15.0}, {"offset_sigma_mm", 5.0}});
+  const FieldValues values = noiseless_v2({{"offset_mm", -15.0}, {"offset_sigma_mm", 5.0}});
   std::vector<double> offsets;
   for (std::uint64_t device = 0; device < 40; ++device) {
     const IrView view(scene, rays, camera, Isometry3d::Identity(), 0, false, device);
@@ -188,77 +170,8 @@ TEST(KinectV2, OffsetBelongsToTheDevice) {
   EXPECT_NEAR(sigma[0], 5, 1.5);
 }
 
-TEST(KinectV2, ACornerLooksRoundBecauseOfBouncedLight) {
-  // Two bright walls at a right angle, edge at 2.5 m: light that bounced off the other wall came the longer way.
-  std::vector<RaySurface> walls;
-  walls.push_back(surface(grid_mesh({0, -2, 2.5}, {2, 0, -2}, {0, 4, 0}, 0.1), 0.8f));
-  walls.push_back(surface(grid_mesh({0, -2, 2.5}, {0, 4, 0}, {-2, 0, -2}, 0.1), 0.8f));
-  const RayScene scene(std::move(walls));
-  const auto depth = [&](double strength, int x) {
-    const cv::Mat part = shoot(scene, noiseless({{"multipath", strength}})).depth_mm(cv::Rect(x, 192, 1, 40));
-    return cv::mean(part)[0];
-  };
-  for (const int x : {225, 286}) {
-    const double longer_mm = depth(1, x) - depth(0, x);
-    EXPECT_GT(longer_mm, 5) << x;
-    EXPECT_LT(longer_mm, 80) << x;
-  }
-}
-
-// From the centre of a matt sphere: what bounces once lights all of it alike, albedo x cone / (4 pi) of the direct.
-void expect_light_in_a_sphere(const Camera& camera) {
-  const RayScene scene = scene_of(surface(sphere_mesh({0, 0, 0}, 2, 200), 0.5f, true));
-  const RayTable rays(camera);
-  const IrView view(scene, rays, camera, Isometry3d::Identity(), 0);
-  const BounceMap map(view, 4, 1);
-  const int width = camera.width, height = camera.height;
-  double cone = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      cone += std::pow(1 + view.ideal(x, y).squaredNorm(), -1.5) / (camera.fx * camera.fy);
-  std::vector<float> terms(width * tof::bounce_terms), depth(width);
-  for (const int y : {0, height / 4, height / 2, height - 1}) {
-    for (int x = 0; x < width; ++x) depth[x] = static_cast<float>(2 / std::sqrt(1 + view.ideal(x, y).squaredNorm()));
-    map.row(y, depth.data(), terms.data());
-    for (const int x : {0, 2 * width / 5, width / 2, width - 1})
-      EXPECT_NEAR(terms[width * (tof::bounce_terms - 1) + x], 0.5 * cone / (4 * M_PI) / 4,
-                  0.05 * 0.5 * cone / (16 * M_PI));
-  }
-}
-
-TEST(KinectV2, BouncedLightInASphereIsThatOfTheBooks) {
-  expect_light_in_a_sphere({512, 424, 366, 366, 255.5, 211.5, {}});
-}
-
-TEST(KinectV2, BouncedLightIsThatOfTheBooksInSmallImagesToo) {
-  expect_light_in_a_sphere({307, 254, 219.6, 219.6, 153, 126.5, {}});
-  expect_light_in_a_sphere({103, 85, 73.2, 73.2, 51, 42, {}});
-}
-
-TEST(KinectV2, LightThatReachesAWallDoesNotReachThePostBeforeIt) {
-  // A post faces the lens before a niche of two bright walls: nothing lit can be seen from its front.
-  std::vector<RaySurface> walls;
-  walls.push_back(surface(grid_mesh({0, -2, 2.7}, {0.5, 0, -0.5}, {0, 4, 0}, 0.1), 0.8f));
-  walls.push_back(surface(grid_mesh({0, -2, 2.7}, {0, 4, 0}, {-0.5, 0, -0.5}, 0.1), 0.8f));
-  walls.push_back(surface(grid_mesh({-0.06, -2, 2.0}, {0, 4, 0}, {0.12, 0, 0}, 0.05), 0.4f));
-  const RayScene scene(std::move(walls));
-  const cv::Mat with = shoot(scene, noiseless({{"multipath", 1.0}})).depth_mm,
-                without = shoot(scene, noiseless()).depth_mm;
-  for (int x = 248; x <= 263; ++x) {
-    ASSERT_NEAR(without.at<std::uint16_t>(212, x), 2000, 5) << x;
-    EXPECT_NEAR(with.at<std::uint16_t>(212, x), without.at<std::uint16_t>(212, x), 1) << x;
-  }
-}
-
-TEST(KinectV2, APlaneBouncesNoLightOntoItself) {
-  const RayScene scene = scene_of(plane(2, 30, 0.8f));
-  EXPECT_EQ(cv::norm(shoot(scene, noiseless()).depth_mm, shoot(scene, noiseless({{"multipath", 1.0}})).depth_mm,
-                     cv::NORM_INF),
-            0);
-}
-
 TEST(KinectV2, AmbientLightAddsNoiseAndNoBias) {
-  const DepthErrors dark = of_plane(3, 0, white), bright = of_plane(3, 0, white, noise_only({{"ambient", 1000.0}}));
+  const DepthErrors dark = of_plane(3, 0, white), bright = of_plane(3, 0, white, noise_only_v2({{"ambient", 1000.0}}));
   EXPECT_GT(bright.sigma_mm, 1.5 * dark.sigma_mm);
   EXPECT_NEAR(bright.mean_mm, dark.mean_mm, 1.0);
 }
@@ -266,7 +179,7 @@ TEST(KinectV2, AmbientLightAddsNoiseAndNoBias) {
 TEST(KinectV2, ChromeIsAHoleAndItsGlintSaturates) {
   RaySurface chrome = plane(2.1, 0);
   chrome.material.chrome = true;
-  const SensorFrame frame = shoot(scene_of(std::move(chrome)), {});
+  const SensorFrame frame = shoot_v2(scene_of(std::move(chrome)), {});
   EXPECT_EQ(frame.ir.at<std::uint16_t>(212, 256), 65535);
   EXPECT_EQ(frame.depth_mm.at<std::uint16_t>(212, 256), 0);
   EXPECT_LE(cv::countNonZero(frame.depth_mm), 0.05 * 512 * 424);
@@ -276,7 +189,7 @@ TEST(KinectV2, InfraredDoesNotKnowTheVisibleColour) {
   RaySurface black = plane(2, 0, 0.6f), white_wall = plane(2, 0, 0.6f);
   black.material.albedo_rgb = Vector3f::Constant(0.02f);
   white_wall.material.albedo_rgb = Vector3f::Constant(0.9f);
-  const SensorFrame a = shoot(scene_of(std::move(black)), {}), b = shoot(scene_of(std::move(white_wall)), {});
+  const SensorFrame a = shoot_v2(scene_of(std::move(black)), {}), b = shoot_v2(scene_of(std::move(white_wall)), {});
   EXPECT_EQ(cv::norm(a.ir, b.ir, cv::NORM_INF), 0);
   EXPECT_EQ(cv::norm(a.depth_mm, b.depth_mm, cv::NORM_INF), 0);
 }
@@ -285,7 +198,7 @@ TEST(KinectV2, BorderPixelsAndOddSizes) {
   const RayScene scene = scene_of(plane(2, 0, white));
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {17, 5}, {130, 61}}) {
     const Camera camera{width, height, 366, 366, 0.5 * (width - 1), 0.5 * (height - 1), {}};
-    const SensorFrame frame = measure(scene, "kinect_v2", noiseless(), 1, 0, camera);
+    const SensorFrame frame = measure(scene, "kinect_v2", noiseless_v2(), 1, 0, camera);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) EXPECT_NEAR(frame.depth_mm.at<std::uint16_t>(y, x), 2000, 1);
   }
@@ -293,7 +206,7 @@ TEST(KinectV2, BorderPixelsAndOddSizes) {
 
 // In the phase domain noise passes the driver's thresholds now and then.
 TEST(KinectV2, WhereNothingIsHardlyAPixelHasDepth) {
-  const SensorFrame frame = shoot(RayScene(std::vector<RaySurface>{}), {});
+  const SensorFrame frame = shoot_v2(RayScene(std::vector<RaySurface>{}), {});
   EXPECT_LE(cv::countNonZero(frame.depth_mm), 512 * 424 / 200);
 }
 

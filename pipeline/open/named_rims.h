@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "pipeline/open/cut.h"
+#include "pipeline/open/open.h"
+#include "pipeline/open/openings.h"
+
+namespace dressform {
+
+// The loops of an open mesh, each named after the opening whose cut is nearest. `observed`: of each opening.
+std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::vector<Opening>& openings,
+                            const std::vector<bool>& observed);
+
+}  // namespace dressform
