@@ -58,7 +58,7 @@ struct Work {
 
 // The loops of the open mesh, each named after the opening whose cut is nearest.
 std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::vector<Opening>& openings,
-                            const std::vector<bool>& observed) {
+                            const std::vector<RimCurve>& curves, const std::vector<bool>& observed) {
   std::vector<Vector3d> centres(openings.size(), Vector3d::Zero());
   std::vector<int> counts(openings.size(), 0);
   for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
@@ -77,8 +77,11 @@ std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::v
       if (distance < nearest) best = k;
       nearest = std::min(nearest, distance);
     }
-    Rim rim{openings[best].name, {}, observed[best]};
-    for (const int v : loop) rim.points.push_back(mesh.vertices[v]);
+    Rim rim{openings[best].name, {}, observed[best], {}};
+    for (const int v : loop) {
+      rim.points.push_back(mesh.vertices[v]);
+      rim.hidden.push_back(!rim.observed || curves[best].unseen(openings[best].angle(mesh.vertices[v])));
+    }
     rims.push_back(std::move(rim));
   }
   return rims;
@@ -119,7 +122,7 @@ CutOutcome cut_open(const Work& work, const OpenScene& scene, const LimbSplinePa
   garment.mesh = without_slivers(cut.mesh, params.shortest_edge_m);
   if (const std::string flaw = flaw_of(garment.mesh, static_cast<int>(work.openings.size())); !flaw.empty())
     return {{}, flaw};
-  garment.rims = named_rims(garment.mesh, cut, work.openings, observed);
+  garment.rims = named_rims(garment.mesh, cut, work.openings, curves, observed);
   garment.layout = with_sleeve_ends(work.closed.layout, garment.mesh, scene.landmarks);
   return {std::move(garment), {}};
 }
