@@ -15,12 +15,26 @@ struct Rim {
   std::string name;              // "neck", "left_cuff", "right_cuff", "hem", "waist", "left_ankle", "right_ankle"
   std::vector<Vector3d> points;  // closed, model frame
   bool observed = true;          // false where no view saw the edge (a waist under a shirt)
+  std::vector<char> hidden;      // of each point: no view saw this stretch (a neck's front under a chin); empty: none
+
+  // Part of its length that no view saw and that goes on from what was seen, 0 to 1; 1 where it is not observed.
+  double unseen_part() const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(name, points, observed);
+    archive(name, points, observed, hidden);
   }
 };
+inline double Rim::unseen_part() const {
+  double total = 0, unseen = 0;
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    const double length = (points[(i + 1) % points.size()] - points[i]).norm();
+    total += length;
+    if (hidden[i]) unseen += length;
+  }
+  return !observed ? 1 : total > 0 ? unseen / total : 0;
+}
+
 struct OpenGarment {
   Mesh mesh;              // open, manifold, one component; shirt 4 loops, trousers 3, skirt 2
   std::vector<Rim> rims;  // one per loop
