@@ -83,7 +83,7 @@ void examine_pictures(const std::vector<GoldenCase>& cases, Examination& found) 
     for (const auto& [stem, image] : each.images) all.emplace_back(each.name + "/" + stem, image);
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size(); ++j)
-      if (PictureTolerance().excess(picture_difference(all[i].second, all[j].second)) <= 1)
+      if (!told_apart(all[i].second, all[j].second))
         found.grave("images",
                     all[i].first + " and " + all[j].first + " cannot be told apart: one would pass for the other");
 }

@@ -16,7 +16,7 @@ std::vector<double> vertex_distances_mm(const Mesh& mesh, const Mesh& truth);
 // stood. Joined through the first sensor, as the scorer does; empty when that sensor is not registered.
 struct ErrorImages {
   std::vector<Figure> maps;
-  std::vector<Comparison> beside_truth;
+  std::vector<ImageComparison> beside_truth;
 };
 ErrorImages error_images(const Reconstruction& reconstruction, const GroundTruth& truth, Renderer& renderer);
 

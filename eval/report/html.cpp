@@ -62,7 +62,7 @@ void HtmlPage::figure(const Figure& figure) {
                        caption_tag(figure.title, figure.caption));
 }
 
-void HtmlPage::comparison(const Comparison& comparison) {
+void HtmlPage::comparison(const ImageComparison& comparison) {
   scripts_ = true;
   body_ += "<figure class=\"compare\"><div class=\"layers\">\n";
   for (const auto& [word, image] : {std::pair("New", &comparison.made), std::pair("Reference", &comparison.reference),

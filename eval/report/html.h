@@ -8,7 +8,7 @@
 namespace dressform {
 
 // Pictures of one thing, all of one size: what was made now, what it should be, and how far they are apart.
-struct Comparison {
+struct ImageComparison {
   std::string name;  // file stem of its three images
   std::string title, caption;
   cv::Mat made, reference, difference;  // 8-bit BGR
@@ -30,7 +30,7 @@ class HtmlPage {
   void verdict(const std::string& text, bool good);
   void table(const std::vector<std::string>& columns, const std::vector<std::vector<Cell>>& rows);
   void figure(const Figure& figure);
-  void comparison(const Comparison& comparison);
+  void comparison(const ImageComparison& comparison);
   // A GLB file's bytes, to be turned; a word instead where the program was built without the viewer.
   void model(const std::string& title, const std::string& glb);
   // An SVG drawing, taken over as it is.

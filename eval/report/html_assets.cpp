@@ -29,6 +29,7 @@ a { color: var(--link); } nav { font-size: 14px; } nav a { margin-right: 14px; d
 table { border-collapse: collapse; font-size: 13.5px; margin: 8px 0 14px; font-variant-numeric: tabular-nums; }
 th { text-align: left; font-weight: 600; border-bottom: 2px solid var(--line); padding: 4px 14px 4px 0; }
 td { border-bottom: 1px solid var(--line); padding: 3px 14px 3px 0; white-space: nowrap; }
+td.best { font-weight: 700; } td.second { text-decoration: underline; }
 td.good { color: var(--good); } td.bad { color: var(--bad); font-weight: 600; } td.quiet { color: var(--quiet); }
 figure { margin: 10px 0 18px; }
 figure img, figure svg { max-width: 100%; height: auto; border: 1px solid var(--line); background: #fff; }

@@ -207,9 +207,8 @@ std::vector<std::string> write_report(const ReportInput& input, const fs::path& 
 std::vector<std::string> write_result_images(const Reconstruction& reconstruction, const fs::path& folder) {
   Renderer renderer;
   const auto results = result_figures(reconstruction, renderer, false);
-  std::vector<const Figure*> figures;
-  for (const auto& figure : results) figures.push_back(&figure);
-  return write_images(figures, folder);
+  fs::create_directories(folder / "renders");
+  return write_images(image_files(results, {}, {}), folder);
 }
 
 }  // namespace dressform

@@ -29,6 +29,7 @@ std::vector<ThesisTable> thesis_tables(const std::vector<RunCounts>& runs);
 
 std::string tables_markdown(const std::vector<ThesisTable>& tables);
 std::string tables_csv(const std::vector<ThesisTable>& tables);    // one line for each figure
-std::string tables_latex(const std::vector<ThesisTable>& tables);  // for \usepackage{booktabs}
+std::string tables_latex(const std::vector<ThesisTable>& tables);  // for \usepackage{booktabs,siunitx}
+std::string tables_html(const std::vector<ThesisTable>& tables);
 
 }  // namespace dressform

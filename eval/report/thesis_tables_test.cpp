@@ -93,6 +93,9 @@ TEST(ThesisTables, AreWrittenForPeopleAndPrograms) {
   EXPECT_NE(markdown.find("| mine | Shirt 1 | 21163 | 21163 | 42322 | 42322 |"), std::string::npos);
   EXPECT_NE(latex.find("mine & Shirt 1 & 21163 & 21163 & 42322"), std::string::npos);
   EXPECT_NE(latex.find("\\toprule"), std::string::npos);
+  EXPECT_NE(latex.find("{V before}"), std::string::npos);  // a head in a column of numbers
+  EXPECT_NE(latex.find("{llSS"), std::string::npos);
+  EXPECT_NE(tables_html(tables).find("<td>21163</td>"), std::string::npos);
   EXPECT_NE(latex.find("k4 (Kinect 4)"), std::string::npos);
   EXPECT_EQ(std::count(latex.begin(), latex.end(), '{'), std::count(latex.begin(), latex.end(), '}'));
 }

@@ -1,10 +1,11 @@
-// Tables of the thesis as Markdown, CSV and LaTeX.
+// Tables of the thesis as Markdown, CSV, LaTeX and HTML.
 #include <fmt/format.h>
 
 #include <string>
 #include <vector>
 
 #include "eval/report/csv.h"
+#include "eval/report/html.h"
 #include "eval/report/thesis_tables.h"
 
 namespace dressform {
@@ -23,6 +24,13 @@ std::string latex(const std::string& text) {
       result += c;
   }
   return result;
+}
+
+// siunitx aligns numbers at their points; everything else of such a column stands in braces.
+std::string latex_number(const std::string& text) {
+  const bool number = !text.empty() && text.find_first_not_of("0123456789.-+") == std::string::npos &&
+                      text.find_first_of("0123456789") != std::string::npos;
+  return number ? text : "{" + latex(text) + "}";
 }
 
 std::string markdown(const std::string& text) {
@@ -94,20 +102,42 @@ std::string tables_csv(const std::vector<ThesisTable>& tables) {
 }
 
 std::string tables_latex(const std::vector<ThesisTable>& tables) {
-  std::string text = "% \\usepackage{booktabs}\n";
+  std::string text = "% \\usepackage{booktabs,siunitx}\n";
   for (const auto& table : tables) {
-    const auto names = heads(table);
-    const std::string left(table.columns.size(), 'l'), right(names.size() - table.columns.size(), 'r');
+    const std::size_t names = table.columns.size();
+    const auto line = [&](const std::vector<std::string>& fields) {
+      std::string joined_fields;
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        joined_fields += (i ? " & " : "") + (i < names ? latex(fields[i]) : latex_number(fields[i]));
+      return joined_fields + " \\\\\n";
+    };
+    const auto columns = heads(table);
     text += fmt::format(
         "\n\\begin{{table}}\n\\centering\n\\caption{{{} (table {} of the thesis)}}\n\\begin{{tabular}}{{{}{}}}\n"
-        "\\toprule\n{} \\\\\n\\midrule\n",
-        latex(table.caption), table.number, left, right, joined(names, " & ", latex));
-    for (const auto& row : table.rows) text += joined(cells(row), " & ", latex) + " \\\\\n";
+        "\\toprule\n{}\\midrule\n",
+        latex(table.caption), table.number, std::string(names, 'l'), std::string(columns.size() - names, 'S'),
+        line(columns));
+    for (const auto& row : table.rows) text += line(cells(row));
     text += "\\bottomrule\n\\end{tabular}\n";
     for (const auto& note : table.notes) text += "\n\\smallskip\\footnotesize " + latex(note) + "\n";
     text += "\\end{table}\n";
   }
   return text;
+}
+
+std::string tables_html(const std::vector<ThesisTable>& tables) {
+  HtmlPage page("Tables of the thesis");
+  for (const auto& table : tables) {
+    page.heading(fmt::format("Table {}: {}", table.number, table.caption), fmt::format("table{}", table.number));
+    std::vector<std::vector<HtmlPage::Cell>> rows;
+    for (const auto& row : table.rows) {
+      rows.emplace_back();
+      for (const auto& text : cells(row)) rows.back().push_back({text, text == "-" ? "quiet" : ""});
+    }
+    page.table(heads(table), rows);
+    for (const auto& note : table.notes) page.paragraph(note);
+  }
+  return page.text();
 }
 
 }  // namespace dressform

@@ -16,7 +16,7 @@ using test_scene::figure_mesh;
 using test_scene::make_rig;
 using test_scene::Rig;
 
-constexpr double kDegrees = 180 / M_PI;
+constexpr double kDegreesPerRadian = 180 / M_PI;
 
 double target_error_m(const Isometry3d& found, const Isometry3d& truth, const Mesh& body) {
   double sum = 0;
@@ -47,7 +47,8 @@ void expect_found(const Rig& rig, const Registration& result, const std::string&
   if (missed(result, sensor, reach)) return;
   ASSERT_TRUE(result.converged.at(sensor)) << sensor << ": " << result.problem.at(sensor);
   const Isometry3d &found = result.model_from_sensor.at(sensor), &truth = rig.model_from_sensor.at(sensor);
-  EXPECT_LT(kDegrees * Eigen::AngleAxisd((found * truth.inverse()).linear()).angle(), reach.rotation_deg) << sensor;
+  EXPECT_LT(kDegreesPerRadian * Eigen::AngleAxisd((found * truth.inverse()).linear()).angle(), reach.rotation_deg)
+      << sensor;
   EXPECT_LT(target_error_m(found, truth, rig.naked.body), reach.error_m) << sensor;
   EXPECT_GT(result.inliers.at(sensor), 500) << sensor;
   EXPECT_LT(result.residual_rms_m.at(sensor), std::max(0.006, reach.error_m)) << sensor;
@@ -133,7 +134,7 @@ void take_view_of(const Figure& figure, Rig& rig, const std::string& sensor, dou
 // The figure leaning forwards from the hips by an angle: a person who moved after the scan.
 Figure leaning(double degrees) {
   Figure figure = test_scene::standing_figure();
-  const Eigen::Matrix3d lean = Eigen::AngleAxisd(degrees / kDegrees, Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d lean = Eigen::AngleAxisd(degrees / kDegreesPerRadian, Vector3d::UnitX()).toRotationMatrix();
   const Vector3d hips(0, 0.95, 0);
   for (auto& part : figure.parts) {
     if (part.centre.y() < 0.7) continue;
@@ -158,7 +159,7 @@ TEST_P(EveryRegistration, APersonWhoMovedIsNotRegisteredWrongly) {
         continue;
       }
       const Isometry3d error = result.model_from_sensor.at(sensor) * rig.model_from_sensor.at(sensor).inverse();
-      EXPECT_LT(kDegrees * Eigen::AngleAxisd(error.linear()).angle(), 1.0) << sensor << " leaning " << degrees;
+      EXPECT_LT(kDegreesPerRadian * Eigen::AngleAxisd(error.linear()).angle(), 1.0) << sensor << " leaning " << degrees;
       EXPECT_LT((error * Vector3d(0, 0.9, 0) - Vector3d(0, 0.9, 0)).norm(), 0.02) << sensor << " leaning " << degrees;
     }
   }
@@ -213,7 +214,7 @@ TEST_P(EveryRegistration, ABustWithoutAFloor) {
   Rig rig = make_rig(10, 5);
   for (const auto& sensor : rig.session.sensors) take_view_of(bust, rig, sensor);
   const Isometry3d model_from_world =
-      Eigen::Translation3d(0, 0.31, 0) * Eigen::AngleAxisd(10 / kDegrees, Vector3d::UnitY());
+      Eigen::Translation3d(0, 0.31, 0) * Eigen::AngleAxisd(10 / kDegreesPerRadian, Vector3d::UnitY());
   rig.naked.body = transformed(figure_mesh(bust), model_from_world.matrix());
   rig.naked.floor_seen = false;
   for (auto& [sensor, pose] : rig.model_from_sensor) pose = model_from_world * rig.world_from_sensor.at(sensor);
