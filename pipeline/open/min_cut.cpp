@@ -16,6 +16,7 @@
 #include "pipeline/open/open_scene.h"
 #include "pipeline/open/place_votes.h"
 #include "pipeline/open/support_distance.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {
@@ -65,8 +66,8 @@ std::vector<MeshSide> sides_of(const Mesh& mesh) {
 std::vector<double> corner_areas_m2(const Mesh& mesh) {
   std::vector<double> areas(mesh.vertices.size(), 0);
   for (const Vector3i& t : mesh.triangles) {
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    for (const int v : t) areas[v] += kThird * 0.5 * (b - a).cross(c - a).norm();
+    const double third_m2 = kThird * triangle_area_m2(mesh, t);
+    for (const int v : t) areas[v] += third_m2;
   }
   return areas;
 }
