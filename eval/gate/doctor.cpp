@@ -95,9 +95,10 @@ void examine_nuisance(const fs::path& golden, const std::vector<GoldenCase>& cas
                "missing: tolerances are declared, not measured; `dressform gate nuisance` measures them");
     return;
   }
-  if (nuisance->places.size() < kEnoughPlaces)
-    found.note("nuisance.json", fmt::format("{} environments; at least {} tell something{}", nuisance->places.size(),
-                                            kEnoughPlaces, nuisance->usable() ? "" : ", and so few are not used"));
+  if (nuisance->distinct() < kEnoughPlaces)
+    found.note("nuisance.json",
+               fmt::format("{} environments with bytes of their own; at least {} tell something{}",
+                           nuisance->distinct(), kEnoughPlaces, nuisance->usable() ? "" : ", and so few are not used"));
   const auto left_out = leave_one_out(*nuisance);
   int alarmed = 0;
   for (const auto& place : left_out) {
