@@ -163,7 +163,9 @@ TEST_P(EveryOpening, ANeckUnderAChinGoesOnFromWhatIsSeenAndSaysSo) {
     double off = 1;
     for (const Vector3d& q : usual->points) off = std::min(off, (p - q).norm());
     EXPECT_LT(off, 0.03) << p.transpose();  // the colour image's pixels are 10 mm, and the shoulders nearly level
-    if (p.z() > 0 && std::abs(p.x()) < 0.02) EXPECT_TRUE(rim->hidden[i]) << p.transpose();
+    if (p.z() > 0 && std::abs(p.x()) < 0.02) {
+      EXPECT_TRUE(rim->hidden[i]) << p.transpose();
+    }
   }
   for (const Vector3d& v : with.garments.at("top").mesh.vertices)
     EXPECT_GT(figure::chin(v, clothes.chin_m), 0.005) << "a tongue of cloth at " << v.transpose();

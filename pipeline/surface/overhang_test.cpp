@@ -23,7 +23,9 @@ TEST(Overhang, AChinHangsAndWhatBearsItDoesNot) {
       EXPECT_TRUE(hangs[i]) << p.transpose();
       ++of_chin;
     }
-    if (p.y() < 1.55 && figure::chin(p, chin_m) > 0.02) EXPECT_FALSE(hangs[i]) << p.transpose();
+    if (p.y() < 1.55 && figure::chin(p, chin_m) > 0.02) {
+      EXPECT_FALSE(hangs[i]) << p.transpose();
+    }
   }
   EXPECT_GT(of_chin, 20);
 }
@@ -44,7 +46,9 @@ TEST(Overhang, NothingHangsBelowTheHead) {
   const Mesh body = figure::body_mesh(0.015);
   const std::vector<char> hangs = overhanging(body, find_landmarks(body));
   for (std::size_t i = 0; i < body.triangles.size(); ++i)
-    if (centre_of(body, i).y() < 1.58) EXPECT_FALSE(hangs[i]) << centre_of(body, i).transpose();
+    if (centre_of(body, i).y() < 1.58) {
+      EXPECT_FALSE(hangs[i]) << centre_of(body, i).transpose();
+    }
 }
 
 }  // namespace
