@@ -12,10 +12,10 @@
 namespace dressform {
 
 struct Rim {
-  std::string name;              // "neck", "left_cuff", "right_cuff", "hem", "waist", "left_ankle", "right_ankle"
-  std::vector<Vector3d> points;  // closed, model frame
-  bool observed = true;          // false where no view saw the edge (a waist under a shirt)
-  std::vector<char> hidden;      // of each point: no view saw this stretch (a neck's front under a chin); empty: none
+  std::string name;               // "neck", "left_cuff", "right_cuff", "hem", "waist", "left_ankle", "right_ankle"
+  std::vector<Vector3d> points;   // closed, model frame
+  bool observed = true;           // false where no view saw the edge (a waist under a shirt)
+  std::vector<char> hidden = {};  // of each point: no view saw this stretch (a neck's front under a chin); empty: none
 
   // Part of its length that no view saw and that goes on from what was seen, 0 to 1; 1 where it is not observed.
   double unseen_part() const;

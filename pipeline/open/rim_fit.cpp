@@ -169,6 +169,7 @@ bool RimCurve::unseen(double angle) const {
   const int count = static_cast<int>(covered.size());
   if (!count) return true;
   const int at = place(angle, count).knot;
+  if (covered[at]) return false;
   int run = 0;
   for (const int way : {1, -1})
     for (int step = way == 1 ? 0 : 1; step < count && !covered[((at + way * step) % count + count) % count]; ++step)

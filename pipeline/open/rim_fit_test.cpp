@@ -26,6 +26,8 @@ TEST(RimFit, SlantedRimWithOutliersAndAGap) {
   for (double angle = -3; angle < 3.1; angle += 0.05)
     EXPECT_NEAR(curve.at(angle), truth(angle), angle > 0.9 && angle < 1.9 ? 0.006 : 0.003) << angle;
   EXPECT_NEAR(curve.coverage, 1 - 0.8 / (2 * M_PI), 0.06);
+  EXPECT_TRUE(curve.unseen(1.4));
+  for (const double seen : {-3.0, -1.0, 0.5, 2.3}) EXPECT_FALSE(curve.unseen(seen)) << seen;
   EXPECT_LT(curve.residual_rms_m, 0.004);
 }
 

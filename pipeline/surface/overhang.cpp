@@ -44,6 +44,37 @@ std::vector<double> climbs(const Mesh& body, const Neighbours& neighbours, const
   return climb;
 }
 
+// The direction up or down in which each vertex faces: its triangles' normals, weighed by area.
+std::vector<double> facing_up(const Mesh& body) {
+  std::vector<double> up(body.vertices.size(), 0);
+  for (const Vector3i& t : body.triangles) {
+    const Vector3d &a = body.vertices[t[0]], &b = body.vertices[t[1]], &c = body.vertices[t[2]];
+    for (int k = 0; k < 3; ++k) up[t[k]] += (b - a).cross(c - a).y();
+  }
+  return up;
+}
+
+// Takes back hollows that one climbs down into, as behind a collar bone: at their lowest place they face up.
+void forget_hollows(const Mesh& body, const Neighbours& neighbours, std::vector<char>& hangs) {
+  const std::vector<double> up = facing_up(body);
+  std::vector<char> seen(hangs.size(), 0);
+  for (std::size_t first = 0; first < hangs.size(); ++first) {
+    if (!hangs[first] || seen[first]) continue;
+    std::vector<int> piece{static_cast<int>(first)};
+    seen[first] = 1;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for (const int next : neighbours[piece[i]])
+        if (hangs[next] && !seen[next]) {
+          seen[next] = 1;
+          piece.push_back(next);
+        }
+    const int lowest = *std::min_element(piece.begin(), piece.end(),
+                                         [&](int a, int b) { return body.vertices[a].y() < body.vertices[b].y(); });
+    if (up[lowest] > 0)
+      for (const int v : piece) hangs[v] = 0;
+  }
+}
+
 // What can be reached from the firm vertices over those that do not hang.
 std::vector<char> borne(const Neighbours& neighbours, const std::vector<char>& firm, const std::vector<char>& hangs) {
   std::vector<char> reached = firm;
@@ -74,6 +105,7 @@ std::vector<char> overhanging(const Mesh& body, const Landmarks& landmarks) {
   const Neighbours neighbours = neighbours_of(body);
   const std::vector<double> climb = climbs(body, neighbours, firm);
   for (std::size_t v = 0; v < hangs.size(); ++v) hangs[v] = climb[v] - body.vertices[v].y() > kHangs_m;
+  forget_hollows(body, neighbours, hangs);
   const std::vector<char> reached = borne(neighbours, firm, hangs);
   std::vector<char> result(body.triangles.size());
   for (std::size_t i = 0; i < result.size(); ++i) {

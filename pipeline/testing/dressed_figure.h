@@ -33,7 +33,7 @@ inline double torso(const Vector3d& p) {
 }
 // A chin that juts so far out, down before the neckline.
 inline double chin(const Vector3d& p, double juts_m) {
-  return capsule(p, {0, 1.64, 0.05}, {0, 1.64 - 1.75 * juts_m, 0.05 + juts_m}, 0.025);
+  return capsule(p, {0, 1.66, 0.05}, {0, 1.66 - 1.29 * juts_m, 0.05 + juts_m}, 0.045);
 }
 inline double body(const Vector3d& p, double chin_m = 0) {
   double d = std::min(torso(p), (p - Vector3d(0, 1.68, 0)).norm() - 0.10);
