@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/imaging/color_mapping.h"
 #include "pipeline/alignment/open3d_icp.h"
+#include "pipeline/imaging/color_mapping.h"
 #include "pipeline/registration/view_clouds.h"
 
 namespace dressform {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "pipeline/registration/view_clouds.h"
 #include "scenes/statistics.h"
@@ -31,17 +32,18 @@ void fields(V& v, ScanFreeParams& p) {
   acceptance_fields(v, p.acceptance);
 }
 
-constexpr double kHalfBody_m = 0.08;     // from the middle of what is seen of a body to its axis
-constexpr double kTurnStep_deg = 3;      // of the search for headings: half of what far_m allows at arm's length
-constexpr int kTurnRounds = 3;           // of it, every view against the others
-constexpr int kTurnStride = 4;           // of the points that it looks at
-constexpr double kLeastNormals = 0.8;    // cosine: two sensors see the same surface
-constexpr int kLeastVisible = 50;        // points in another view's image, to say anything
-constexpr double kGaugeDamping = 1e-9;   // of the trace: keeps where it is what the views can't tell, the whole rig
-constexpr double kStillOverlap = 2e-5;   // radians and metres: a step that moves nothing by a tenth of a millimetre
-constexpr double kFloorSigma_m = 0.003;  // of a floor, which is never quite flat
-constexpr double kFloorWidth_m = 0.03;   // of its loss
-constexpr double kBehind_m = 0.06;       // seen behind the model by more than this speaks against a heading
+constexpr double kHalfBody_m = 0.08;      // from the middle of what is seen of a body to its axis
+constexpr double kTurnStep_deg = 3;       // of the search for headings: half of what far_m allows at arm's length
+constexpr int kTurnRounds = 3;            // of it, every view against the others
+constexpr int kTurnStride = 4;            // of the points that it looks at
+constexpr double kLeastNormals = 0.8;     // cosine: two sensors see the same surface
+constexpr double kLeastSigmasOfPair = 3;  // of both views' noise, that the loss is at least wide
+constexpr int kLeastVisible = 50;         // points in another view's image, to say anything
+constexpr double kGaugeDamping = 1e-9;    // of the trace: keeps where it is what the views can't tell, the whole rig
+constexpr double kStillOverlap = 2e-5;    // radians and metres: a step that moves nothing by a tenth of a millimetre
+constexpr double kFloorSigma_m = 0.003;   // of a floor, which is never quite flat
+constexpr double kFloorWidth_m = 0.03;    // of its loss
+constexpr double kBehind_m = 0.06;        // seen behind the model by more than this speaks against a heading
 constexpr int kHeadings = 36, kRigIterations = 15;
 
 // The views of one rig: poses in a frame with y up, the floor at 0 and the mannequin's axis at x = z = 0.
@@ -86,8 +88,9 @@ FreeRig free_rig(const std::vector<ViewPoints>& views) {
 
 PairEquations overlap(const FreeRig& rig, std::size_t from, std::size_t to, const Isometry3d& from_pose,
                       const Isometry3d& to_pose, double width_m, int stride) {
+  const double noise_m = std::hypot(rig.views[from].body_sigma_m, rig.views[to].body_sigma_m);
   return pair_equations(rig.views[from].map, rig.samples[from], rig.views[to].map, rig.projectors[to], from_pose,
-                        to_pose, {width_m, kLeastNormals, stride});
+                        to_pose, {std::max(width_m, kLeastSigmasOfPair * noise_m), kLeastNormals, stride});
 }
 
 // What a view's mannequin, floor and room cost in the others' images and theirs in its, a point.
@@ -210,6 +213,32 @@ Isometry3d model_from_rig(const FreeRig& rig, const ModelTarget& target, const L
   return best;
 }
 
+// All views that stand on a floor and have a prior. One that then does not fit the model shows something else, or is
+// tied to no other: the worst is left out and the others are done again, so that it leaves nothing in their poses.
+std::vector<ViewAlignment> aligned_without(const std::vector<ViewPoints>& views, const ModelTarget& target,
+                                           const ScanFreeParams& params) {
+  FreeRig rig = free_rig(views);
+  for (;;) {
+    std::vector<ViewAlignment> alignments(views.size());
+    if (rig.used.empty()) return alignments;
+    for (const std::size_t v : rig.used) rig.rig_from_sensor[v] = stood_up(views[v]);
+    find_headings(rig, params);
+    for (const double width_m : {params.far_m, params.wide_m, params.narrow_m})
+      for (int i = 0; i < params.iterations; ++i)
+        if (overlap_step(rig, width_m) < kStillOverlap) break;
+    const Isometry3d frame = model_from_rig(rig, target, params.loss);
+    std::optional<std::size_t> worst;
+    for (const std::size_t v : rig.used) {
+      alignments[v] = measured_at(views[v], target, frame * rig.rig_from_sensor[v],
+                                  {params.loss.middle_m, params.loss.normal_cosine});
+      if (acceptable(views[v], target, alignments[v], params.acceptance)) continue;
+      if (!worst || alignments[v].cost > alignments[*worst].cost) worst = v;
+    }
+    if (!worst) return alignments;
+    rig.used.erase(std::find(rig.used.begin(), rig.used.end(), *worst));
+  }
+}
+
 // The views about one another without the scan, which the thesis's last chapter wishes for: by the rig prior, each
 // view's floor, and what any two share of mannequin, floor and room (Chen and Medioni, ICRA 1991; all at once: Pulli,
 // 3DIM 1999). The scan's model then gives the rig, as one rigid piece, the frame of the stages after, and judges the
@@ -220,18 +249,7 @@ Registration scan_free(const CaptureSession& session, const Calibration& calibra
   check_registration_input(session, naked);
   const auto views = view_points(session, calibration, extracted, params.points);
   const ModelTarget target(naked);
-  FreeRig rig = free_rig(views);
-  std::vector<ViewAlignment> alignments(views.size());
-  if (!rig.used.empty()) {
-    find_headings(rig, params);
-    for (const double width_m : {params.far_m, params.wide_m, params.narrow_m})
-      for (int i = 0; i < params.iterations; ++i)
-        if (overlap_step(rig, width_m) < kStillOverlap) break;
-    const Isometry3d frame = model_from_rig(rig, target, params.loss);
-    for (const std::size_t v : rig.used)
-      alignments[v] = measured_at(views[v], target, frame * rig.rig_from_sensor[v],
-                                  {params.loss.middle_m, params.loss.normal_cosine});
-  }
+  const auto alignments = aligned_without(views, target, params);
   Registration result = judged(views, target, alignments, params.acceptance);
   for (const ViewPoints& view : views)
     if (view.usable() && (!view.floor_plane || !view.world_from_sensor))

@@ -2,6 +2,7 @@
 // Four sensors about the analytic figure, for tests of registration: naked shots, a rough prior, and the true poses.
 #include <map>
 #include <string>
+#include <utility>
 
 #include "pipeline/registration/registration.h"
 #include "pipeline/testing/test_scene.h"
@@ -39,7 +40,7 @@ struct Rig {
 };
 
 // Four sensors at right angles; the model is the figure turned by `heading_deg` about the vertical.
-inline Rig make_rig(double heading_deg, double prior_error_deg) {
+inline Rig rendered_rig(double heading_deg, double prior_error_deg) {
   Rig rig;
   const Figure figure = standing_figure();
   const Isometry3d model_from_world(Eigen::AngleAxisd(heading_deg * M_PI / 180, Vector3d::UnitY()));
@@ -64,6 +65,22 @@ inline Rig make_rig(double heading_deg, double prior_error_deg) {
   }
   rig.session.calibration = rig.calibration;
   return rig;
+}
+
+// With images of its own.
+inline Rig copy_of(Rig rig) {
+  for (auto& [sensor, shot] : rig.session.naked) shot.depth_mm = shot.depth_mm.clone();
+  return rig;
+}
+
+// The same as rendered_rig: each is rendered once in a program, since every variant's tests ask for a few.
+inline Rig make_rig(double heading_deg, double prior_error_deg) {
+  static std::map<std::pair<double, double>, Rig> rendered;
+  const std::pair key(heading_deg, prior_error_deg);
+  const auto found = rendered.find(key);
+  return copy_of(found != rendered.end()
+                     ? found->second
+                     : rendered.emplace(key, rendered_rig(heading_deg, prior_error_deg)).first->second);
 }
 
 }  // namespace dressform::test_scene
