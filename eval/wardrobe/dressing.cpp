@@ -45,6 +45,19 @@ std::string name_of_path(const fs::path& path) {
   return normal.filename().empty() ? normal.parent_path().filename().string() : normal.filename().string();
 }
 
+Reconstruction brought_back(const EndToEndRequest& request, ArtifactStore& store, const StageProgress& progress) {
+  return reconstruct(open_session(request.session, request.check_session), request.options, store, progress);
+}
+
+// Whoever was scanned with a run, whatever its fit was.
+Customer user_of_run(const fs::path& run) {
+  const EndToEndRequest request = recorded_request(run);
+  ArtifactStore store(request.store);
+  const Reconstruction made = brought_back(request, store, {});
+  if (!made.user) throw InputError(run.string(), "is a run without a user's scan; expected one with a user");
+  return {name_of_path(run), {made.user->get().body, made.user_landmarks->get()}};
+}
+
 // The other garment where it is worn over this one.
 const std::string* worn_over(const std::string& slot, const GarmentLayouts& layouts) {
   for (const auto& [other, layout] : layouts)
@@ -96,8 +109,7 @@ CapturedClothes captured_clothes(const fs::path& run, const StageProgress& progr
   require_automatic<Fit>(request.options, run);
   require_automatic<Correct>(request.options, run);
   ArtifactStore store(request.store);
-  const Reconstruction made =
-      reconstruct(open_session(request.session, request.check_session), request.options, store, progress);
+  const Reconstruction made = brought_back(request, store, progress);
   CapturedClothes clothes;
   clothes.name = name_of_path(run);
   clothes.options = request.options;
@@ -111,11 +123,7 @@ CapturedClothes captured_clothes(const fs::path& run, const StageProgress& progr
 }
 
 Customer customer_of(const fs::path& source, const MeshFrame& frame) {
-  if (fs::is_directory(source)) {
-    CapturedClothes run = captured_clothes(source);
-    if (!run.user) throw InputError(source.string(), "is a run without a user's scan; expected one with a user");
-    return {run.name, std::move(*run.user)};
-  }
+  if (fs::is_directory(source)) return user_of_run(source);
   if (source.extension() == ".toml") {
     const Scene scene = read_scene(source);
     return {scene.name, known_body(make_body(scene.user).mesh)};
