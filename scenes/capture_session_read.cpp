@@ -9,6 +9,7 @@
 #include "scenes/capture_session.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
+#include "scenes/scan_poses.h"
 #include "scenes/session_depth.h"
 #include "scenes/session_layout.h"
 #include "scenes/session_limits.h"
@@ -165,6 +166,8 @@ class Reader {
         depth(fs::path(name) / session_layout::depth_frame(static_cast<int>(i)), scan.depth_mm[i],
               size_of(scan.sensor, false), &frames);
       check_no_further_frames(entry.at("frames"), name, scan.depth_mm.size());
+      const fs::path poses = inside(fs::path(name) / session_layout::kPoses);
+      if (fs::exists(poses)) scan.world_from_frame = read_scan_poses(poses, scan.depth_mm.size());
     }
   }
 

@@ -1,13 +1,12 @@
 #include <tbb/parallel_for.h>
 
-#include <functional>
-
 #include "scenes/calibration_json.h"
 #include "scenes/capture_session.h"
 #include "scenes/folder_hash.h"
 #include "scenes/image_file.h"
 #include "scenes/json_file.h"
 #include "scenes/picks.h"
+#include "scenes/scan_poses.h"
 #include "scenes/session_folder.h"
 #include "scenes/session_layout.h"
 
@@ -96,6 +95,9 @@ void list_boards(const fs::path& folder, const Boards& boards, std::vector<Image
 
 void finish_session(NewFolder& folder, const CaptureSession& outline) {
   if (outline.calibration) write_calibration(folder.temporary() / "calibration.json", *outline.calibration);
+  for (const auto& [name, scan] : outline.scans)
+    if (!scan.world_from_frame.empty())
+      write_scan_poses(folder.temporary() / name / session_layout::kPoses, scan.world_from_frame);
   write_json(folder.temporary() / "session.json", session_json(outline));
   folder.keep();
 }

@@ -30,6 +30,9 @@ struct Shot {
 struct DepthScan {
   std::string sensor;             // its calibration's name
   std::vector<cv::Mat> depth_mm;  // uint16, as in Shot
+  // As the recorder knew them (motion capture, its own tracking): one for each frame, NaNs where it did not; empty: not
+  // recorded. Any world; metres.
+  std::vector<Isometry3d> world_from_frame = {};
 };
 
 }  // namespace dressform

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 #include <opencv2/core.hpp>
 
 #include "scenes/calibration_json.h"

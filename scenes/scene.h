@@ -22,8 +22,12 @@ struct BodySpec {
   int sample_seed = 1;         // which of the customers that can be drawn
   double stature_m = 1.85, chest_m = 1.01, waist_m = 0.81, hip_m = 0.91;   // girths: tape (convex hull) round the body
   double inseam_m = 0, knee_height_m = 0, upper_arm_m = 0, forearm_m = 0;  // segments; 0: as usual with these girths
-  std::string pose = "mannequin";                                          // mannequin, a_pose, bent_arms
-  double arm_angle_deg = 0;  // upper arms out from the vertical; 0: the pose's own
+  double neck_m = 0;                                                       // girth of the neck; 0: likewise
+  double chin_m = 0;               // how far jaw and chin jut forward and down, beyond the usual
+  double bow_deg = 0;              // how far the head is bowed
+  double hunch_m = 0;              // how far neck and head stand forward of an upright back
+  std::string pose = "mannequin";  // mannequin, a_pose, bent_arms, one_arm_bent
+  double arm_angle_deg = 0;        // upper arms out from the vertical; 0: the pose's own
 };
 
 struct PrintSpec {

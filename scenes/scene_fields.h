@@ -16,9 +16,13 @@ void fields(V& v, BodySpec& body) {
   v("knee_height_m", body.knee_height_m, 0.0, 0.8, "m", "height of the middle of the kneecap; 0: likewise");
   v("upper_arm_m", body.upper_arm_m, 0.0, 0.6, "m", "shoulder point to elbow; 0: likewise");
   v("forearm_m", body.forearm_m, 0.0, 0.5, "m", "elbow to wrist; 0: likewise");
+  v("neck_m", body.neck_m, 0.0, 0.6, "m", "girth of the neck; 0: likewise");
+  v("chin_m", body.chin_m, 0.0, 0.08, "m", "how far jaw and chin jut forward and down, beyond the usual");
+  v("bow_deg", body.bow_deg, 0.0, 35.0, "deg", "how far the head is bowed");
+  v("hunch_m", body.hunch_m, 0.0, 0.15, "m", "how far neck and head stand forward of an upright back");
   v("sample", body.sample, {"", "man", "woman"}, "draws stature and girths from the survey instead of asking for them");
   v("sample_seed", body.sample_seed, 0, 1000000000, "", "number of the drawn customer");
-  v("pose", body.pose, {"mannequin", "a_pose", "bent_arms"}, "how the arms are held");
+  v("pose", body.pose, {"mannequin", "a_pose", "bent_arms", "one_arm_bent"}, "how the arms are held");
   v("arm_angle_deg", body.arm_angle_deg, 0.0, 60.0, "deg", "upper arms out from the vertical; 0: the pose's own");
 }
 

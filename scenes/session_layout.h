@@ -11,6 +11,8 @@ namespace session_layout {
 
 inline const char* const kFormat = "dressform-session";
 inline const char* const kCalibrationFormat = "dressform-calibration";
+inline const char* const kPosesFormat = "dressform-scan-poses";
+inline const char* const kPoses = "poses.json";  // in a scan's folder
 inline constexpr int kVersion = 1;
 inline constexpr int kMostFrames = 10000;  // of a scan, and board shots of a sensor: what four digits number
 inline const std::vector<std::string> kScans{"scan_naked", "scan_user"};

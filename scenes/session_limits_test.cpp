@@ -1,7 +1,5 @@
 #include <gmock/gmock.h>
 
-#include <fstream>
-
 #include "scenes/image_file.h"
 #include "scenes/testing/session_folder.h"
 

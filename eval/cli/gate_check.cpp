@@ -68,6 +68,9 @@ void print_result(const std::string& name, const GateResult& result) {
   else
     fmt::print("{}: {}, {} of {}; {}\n", name, obsolete ? "OBSOLETE reference" : "REGRESSION", result.findings.size(),
                result.compared, bytes);
+  if (!passed && !result.blame.empty())
+    fmt::print("  begins at {}{}\n", result.blame,
+               result.bytes.state == BytesState::changed ? "" : ", the first stage whose numbers fail");
   const bool all_same = passed && result.bytes.state == BytesState::identical;
   if (!all_same) print_stages(result);
   for (const auto& finding : result.findings)

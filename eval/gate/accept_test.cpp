@@ -70,6 +70,7 @@ TEST(GateAccept, BytesAreKeptWithTheEnvironmentWhenAllOfTheRunIsAccepted) {
   const auto moved = compare_with_golden(golden, invented_run(0.201));
   EXPECT_EQ(moved.bytes.state, BytesState::changed);
   EXPECT_EQ(moved.bytes.origins, std::vector<std::string>{"scores"});
+  EXPECT_EQ(moved.blame, "scores");
   EXPECT_EQ(moved.verdict, GateVerdict::pass) << "within nuisance";
 }
 

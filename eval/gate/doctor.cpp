@@ -83,7 +83,7 @@ void examine_pictures(const std::vector<GoldenCase>& cases, Examination& found) 
     for (const auto& [stem, image] : each.images) all.emplace_back(each.name + "/" + stem, image);
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size(); ++j)
-      if (PictureTolerance().excess(picture_difference(all[i].second, all[j].second)) <= 1)
+      if (!told_apart(all[i].second, all[j].second))
         found.grave("images",
                     all[i].first + " and " + all[j].first + " cannot be told apart: one would pass for the other");
 }
@@ -95,9 +95,10 @@ void examine_nuisance(const fs::path& golden, const std::vector<GoldenCase>& cas
                "missing: tolerances are declared, not measured; `dressform gate nuisance` measures them");
     return;
   }
-  if (nuisance->places.size() < kEnoughPlaces)
-    found.note("nuisance.json", fmt::format("{} environments; at least {} tell something{}", nuisance->places.size(),
-                                            kEnoughPlaces, nuisance->usable() ? "" : ", and so few are not used"));
+  if (nuisance->distinct() < kEnoughPlaces)
+    found.note("nuisance.json",
+               fmt::format("{} environments with bytes of their own; at least {} tell something{}",
+                           nuisance->distinct(), kEnoughPlaces, nuisance->usable() ? "" : ", and so few are not used"));
   const auto left_out = leave_one_out(*nuisance);
   int alarmed = 0;
   for (const auto& place : left_out) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "eval/score/targets.h"
+#include "pipeline/reconstruct.h"
 
 namespace dressform {
 namespace {
@@ -212,6 +213,18 @@ const char* verdict_word(ItemVerdict verdict) {
 
 bool is_failure(ItemVerdict verdict) { return badness(verdict) >= badness(ItemVerdict::unknown); }
 
+std::string first_failing_stage(const std::vector<GateItem>& findings) {
+  const auto stages = describe_stages();
+  const auto rank = [&](const std::string& stage) {
+    return std::find_if(stages.begin(), stages.end(), [&](const auto& each) { return each.name == stage; }) -
+           stages.begin();
+  };
+  const auto first = std::min_element(findings.begin(), findings.end(), [&](const GateItem& a, const GateItem& b) {
+    return rank(a.stage) < rank(b.stage);
+  });
+  return first == findings.end() ? std::string() : first->stage;
+}
+
 GateResult compare_with_golden(const GoldenCase& golden, const GoldenRun& run, const MeasuredNuisance& nuisance) {
   GateResult result;
   result.bytes = compare_bytes(golden.steps, golden.environment, run.steps, run.environment);
@@ -231,6 +244,8 @@ GateResult compare_with_golden(const GoldenCase& golden, const GoldenRun& run, c
     std::stable_sort(list->begin(), list->end(),
                      [](const GateItem& a, const GateItem& b) { return a.times > b.times; });
   result.stages = stage_verdicts(result.items);
+  result.blame =
+      result.bytes.state == BytesState::changed ? result.bytes.origins.front() : first_failing_stage(result.findings);
   return result;
 }
 

@@ -63,6 +63,9 @@ struct GateResult {
   std::vector<GateItem> better;      // beyond tolerance in the good direction, most first: to accept
   std::vector<StageVerdict> stages;  // worst first, then in the order of the pipeline
   std::vector<GateTarget> targets;
+  // Where it began: in the same environment by bytes; else the first stage of the pipeline of which a number or picture
+  // failed. Empty where nothing changed, or nothing failed.
+  std::string blame;
   int compared = 0;
   std::vector<std::string> unmeasured;  // metrics whose nuisance is declared and not measured
 };
@@ -72,6 +75,9 @@ struct GateResult {
 // does not know are regressions; numbers or images that the reference does not know make it obsolete. In the same
 // environment bytes name the stage to blame; what passes and what fails is told by numbers and pictures alone.
 GateResult compare_with_golden(const GoldenCase& golden, const GoldenRun& run, const MeasuredNuisance& nuisance = {});
+
+// The first stage, in the order of the pipeline, of which a finding failed; pictures last; empty for none.
+std::string first_failing_stage(const std::vector<GateItem>& findings);
 
 // How far nuisance (compiler, instruction set, platform) may move this number, by the declaration of its metric. Throws
 // std::logic_error for a row that nobody declared.

@@ -113,7 +113,7 @@ TEST(Gate, TargetsMetAndMissedAreTold) {
 TEST(Gate, ANewlyMissedTargetIsARegressionByNameHoweverSmallTheChange) {
   GoldenCase golden = some_case();
   auto scores = some_scores();
-  golden.scores[0].row.value = 0.495;
+  golden.scores[0].row.value = golden.scores[0].first = 0.495;
   scores.rows[0].value = 0.505;  // within the nuisance of 0.02 degrees
   const auto result = compared(golden, scores, some_images());
   EXPECT_EQ(result.verdict, GateVerdict::regression);
@@ -193,6 +193,7 @@ TEST(Gate, FindingsAndStagesComeWorstFirst) {
   EXPECT_EQ(result.findings[0].what(), kF);
   EXPECT_EQ(result.findings[1].what(), kRotation);
   EXPECT_EQ(result.stages[0].stage, "surface");
+  EXPECT_EQ(result.blame, "registration") << "no bytes tell: the first stage of the pipeline that fails";
   EXPECT_EQ(result.stages[1].stage, "registration");
   EXPECT_EQ(result.stages[0].counts.at(ItemVerdict::worse), 1);
 }

@@ -115,7 +115,13 @@ MeasuredNuisance measure_nuisance(const std::vector<PlaceRuns>& places) {
   return result;
 }
 
-bool MeasuredNuisance::usable() const { return places.size() >= kLeastPlaces; }
+std::size_t MeasuredNuisance::distinct() const {
+  const auto moved =
+      std::count_if(places.begin(), places.end(), [](const Place& each) { return each.changed_steps > 0; });
+  return static_cast<std::size_t>(moved) + !places.empty();
+}
+
+bool MeasuredNuisance::usable() const { return distinct() >= kLeastPlaces; }
 
 std::optional<double> MeasuredNuisance::tolerance(const ScoreRow& row, int left_out) const {
   const auto found = metrics.find(declared_name(row));
@@ -135,6 +141,7 @@ PictureTolerance MeasuredNuisance::picture_tolerance(int left_out) const {
 std::vector<LeftOutPlace> leave_one_out(const MeasuredNuisance& nuisance) {
   std::vector<LeftOutPlace> result;
   for (std::size_t k = 1; k < nuisance.places.size(); ++k) {
+    if (nuisance.places[k].changed_steps == 0) continue;  // no sample: it cannot be alarmed
     LeftOutPlace place{nuisance.places[k].name, {}};
     const int left_out = static_cast<int>(k);
     for (const Metric* metric : all_metrics()) {

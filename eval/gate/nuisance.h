@@ -27,7 +27,10 @@ struct MeasuredNuisance {
   std::map<std::string, std::vector<double>> pictures;  // "mean_levels", "worst_tile_levels", "flip", "worst_tile_flip"
   std::vector<std::string> status_changes;              // rows that are measured in one place and failed in another
 
-  bool usable() const;  // enough places to say anything
+  // Places that are samples: the reference, and those with other bytes than its. A place with the same bytes is the
+  // same program in effect, however its environment is called.
+  std::size_t distinct() const;
+  bool usable() const;  // enough distinct places to say anything
   // Of a row, from all places but the one `left_out` (its index; -1: from all). Absent where nothing was measured for
   // its metric.
   std::optional<double> tolerance(const ScoreRow& row, int left_out = -1) const;
@@ -42,7 +45,7 @@ struct PlaceRuns {
 };
 MeasuredNuisance measure_nuisance(const std::vector<PlaceRuns>& places);
 
-// Each place but the reference judged by the tolerance of all others.
+// Each distinct place but the reference judged by the tolerance of all others.
 struct LeftOutPlace {
   std::string name;
   std::vector<std::string> alarms;  // metrics and pictures that would have been called changed

@@ -48,7 +48,8 @@ TEST(Nuisance, ToleranceIsTwiceTheLargestDistanceOverAllRowsOfAMetric) {
 TEST(Nuisance, ThePlaceLeftOutIsJudgedByTheOthers) {
   const auto nuisance = measure_nuisance(some_places());
   const auto left_out = leave_one_out(nuisance);
-  ASSERT_EQ(left_out.size(), 3u);
+  ASSERT_EQ(left_out.size(), 2u) << "the one with the bytes of the reference is no sample";
+  EXPECT_EQ(nuisance.distinct(), 3u);
   EXPECT_TRUE(left_out[0].alarms.empty()) << "0.0015 against twice 0.001";
   EXPECT_TRUE(left_out[1].alarms.empty());
   auto places = some_places();
@@ -96,7 +97,7 @@ TEST(Nuisance, AnotherStatusIsToldAndNoTolerance) {
 
 TEST(Nuisance, PicturesAreMeasuredToo) {
   auto places = some_places();
-  places[2].runs["group1"] = run_elsewhere("GNU 2", 0.93, 103);
+  places[2].runs["group1"] = run_elsewhere("GNU 2", 0.929, 103);
   const auto tolerance = measure_nuisance(places).picture_tolerance();
   EXPECT_TRUE(tolerance.measured);
   EXPECT_NEAR(tolerance.mean_levels, 6, 1e-9);

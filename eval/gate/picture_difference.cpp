@@ -53,19 +53,32 @@ cv::Mat mean_of_channels(const cv::Mat& bgr) {
   return mean;
 }
 
-}  // namespace
-
-PictureDifference picture_difference(const cv::Mat& a, const cv::Mat& b) {
+// All but FLIP, which is 0.
+PictureDifference level_difference(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != CV_8UC3 || b.type() != CV_8UC3)
     return {kLargestLevel, kLargestLevel, 1, 1, 0, 0, false};
   cv::Mat difference;
   cv::absdiff(a, b, difference);
   if (cv::countNonZero(difference.reshape(1)) == 0) return {};
   const cv::Mat levels = mean_of_channels(difference);
+  const WorstTile worst = worst_tile(levels);
+  return {cv::mean(levels)[0], worst.mean, 0, 0, worst.x, worst.y, true};
+}
+
+}  // namespace
+
+PictureDifference picture_difference(const cv::Mat& a, const cv::Mat& b) {
+  PictureDifference result = level_difference(a, b);
+  if (!result.comparable || result.mean_levels == 0) return result;
   cv::Mat flip;
   metrics::flip_map(a, b).convertTo(flip, CV_64F);
-  const WorstTile by_levels = worst_tile(levels), by_flip = worst_tile(flip);
-  return {cv::mean(levels)[0], by_levels.mean, cv::mean(flip)[0], by_flip.mean, by_levels.x, by_levels.y, true};
+  result.flip = cv::mean(flip)[0];
+  result.worst_tile_flip = worst_tile(flip).mean;
+  return result;
+}
+
+bool told_apart(const cv::Mat& a, const cv::Mat& b, const PictureTolerance& tolerance) {
+  return tolerance.excess(level_difference(a, b)) > 1 || tolerance.excess(picture_difference(a, b)) > 1;
 }
 
 double PictureTolerance::excess(const PictureDifference& difference) const {

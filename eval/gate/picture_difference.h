@@ -31,6 +31,10 @@ struct PictureTolerance {
   double excess(const PictureDifference& difference) const;
 };
 
+// Whether two pictures are not the same by this tolerance: as `excess` above 1, but FLIP is only asked where levels do
+// not tell.
+bool told_apart(const cv::Mat& a, const cv::Mat& b, const PictureTolerance& tolerance = {});
+
 // "mean 0.41 levels, worst tile 12.50 at (104, 32), FLIP 0.0031, worst tile 0.0920".
 std::string picture_text(const PictureDifference& difference);
 

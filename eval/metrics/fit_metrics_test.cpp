@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "eval/metrics/intersections.h"
 #include "eval/metrics/mesh_distance.h"
 #include "eval/testing/test_meshes.h"

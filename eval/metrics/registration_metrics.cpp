@@ -1,7 +1,6 @@
 #include "eval/metrics/registration_metrics.h"
 
 #include <cmath>
-#include <limits>
 
 #include "eval/metrics/mesh_distance.h"
 #include "eval/metrics/sampling.h"

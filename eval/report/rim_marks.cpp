@@ -15,7 +15,7 @@ void append(Mesh& mesh, const Mesh& part) {
 
 }  // namespace
 
-Mesh tube_along(const std::vector<Vector3d>& loop, double radius_m) {
+Mesh tube_along(const std::vector<Vector3d>& loop, double radius_m, const std::vector<char>& wanted) {
   constexpr int kSides = 6;
   Mesh tube;
   const int count = static_cast<int>(loop.size());
@@ -33,7 +33,7 @@ Mesh tube_along(const std::vector<Vector3d>& loop, double radius_m) {
     }
   }
   for (int i = 0; i < count; ++i)
-    for (int k = 0; k < kSides; ++k) {
+    for (int k = 0; k < kSides && (wanted.empty() || wanted[i]); ++k) {
       const int a = i * kSides + k, b = i * kSides + (k + 1) % kSides;
       const int c = (i + 1) % count * kSides + k, d = (i + 1) % count * kSides + (k + 1) % kSides;
       tube.triangles.push_back({a, b, d});
@@ -44,16 +44,25 @@ Mesh tube_along(const std::vector<Vector3d>& loop, double radius_m) {
 
 RimMarks rim_marks(const OpenGarment& garment) {
   RimMarks marks;
-  for (const auto& rim : garment.rims)
-    append(rim.observed ? marks.seen : marks.unseen, tube_along(rim.points, kRadius_m));
+  for (const auto& rim : garment.rims) {
+    std::vector<char> unseen = rim.hidden, seen;
+    if (unseen.empty() || !rim.observed) unseen.assign(rim.points.size(), !rim.observed);
+    for (const char hidden : unseen) seen.push_back(!hidden);
+    append(marks.seen, tube_along(rim.points, kRadius_m, seen));
+    append(marks.unseen, tube_along(rim.points, kRadius_m, unseen));
+  }
   return marks;
 }
 
 std::string unseen_rims_caption(const OpenGarments& opened) {
   std::string names;
   for (const auto& [slot, garment] : opened.garments)
-    for (const auto& rim : garment.rims)
-      if (!rim.observed) names += (names.empty() ? "the " : ", the ") + slot + "'s " + rim.name;
+    for (const auto& rim : garment.rims) {
+      const int percent = static_cast<int>(std::lround(100 * rim.unseen_part()));
+      if (percent == 0) continue;
+      const std::string part = rim.observed ? std::to_string(percent) + " % of the " : "the ";
+      names += (names.empty() ? "" : ", ") + part + slot + "'s " + rim.name;
+    }
   return names.empty() ? "" : "No view saw " + names + ": carried on from what was seen.";
 }
 

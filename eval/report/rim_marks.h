@@ -7,16 +7,18 @@
 
 namespace dressform {
 
-// A closed line as a thin tube, to be drawn on an edge. Empty for fewer than three points.
-Mesh tube_along(const std::vector<Vector3d>& loop, double radius_m);
+// A closed line as a thin tube, to be drawn on an edge. Empty for fewer than three points. `wanted`: which of the
+// stretches from one point to the next are drawn; empty: all.
+Mesh tube_along(const std::vector<Vector3d>& loop, double radius_m, const std::vector<char>& wanted = {});
 
-// The rims of a garment as tubes: those that some view saw, and those that were carried on from what was seen.
+// The rims of a garment as tubes: what some view saw of them, and what was carried on from what was seen.
 struct RimMarks {
   Mesh seen, unseen;
 };
 RimMarks rim_marks(const OpenGarment& garment);
 
-// The rims that no view saw, in words for a caption: "No view saw the bottom's waist."; empty where all were seen.
+// What no view saw of the rims, in words for a caption: "No view saw the bottom's waist, 20 % of the top's neck: ...";
+// empty where all was seen.
 std::string unseen_rims_caption(const OpenGarments& opened);
 
 }  // namespace dressform

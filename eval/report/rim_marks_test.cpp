@@ -31,10 +31,19 @@ TEST(RimMarks, WhatNobodySawIsNamedAndDrawnApart) {
   opened.garments["bottom"].rims = {{"waist", circle(0.2, 1), false}, {"hem", circle(0.3, 0.5), true}};
   EXPECT_EQ(unseen_rims_caption(opened), "No view saw the bottom's waist: carried on from what was seen.");
   EXPECT_TRUE(rim_marks(opened.garments.at("top")).unseen.triangles.empty());
+  Rim& neck = opened.garments["top"].rims[0];  // a quarter of it under a chin
+  for (const auto& p : neck.points) neck.hidden.push_back(p.z() > 0 && std::abs(p.x()) < 0.0707);
+  EXPECT_EQ(unseen_rims_caption(opened),
+            "No view saw the bottom's waist, 25 % of the top's neck: carried on from what was seen.");
+  const RimMarks parted = rim_marks(opened.garments.at("top"));
+  ASSERT_FALSE(parted.unseen.triangles.empty());
+  for (const auto& t : parted.unseen.triangles) EXPECT_GT(parted.unseen.vertices[t[0]].z(), 0.05);
   const RimMarks marks = rim_marks(opened.garments.at("bottom"));
   ASSERT_FALSE(marks.unseen.triangles.empty());
-  for (const auto& p : marks.unseen.vertices) EXPECT_GT(p.y(), 0.99);
-  for (const auto& p : marks.seen.vertices) EXPECT_LT(p.y(), 0.51);
+  for (const auto& t : marks.unseen.triangles)
+    for (int k = 0; k < 3; ++k) EXPECT_GT(marks.unseen.vertices[t[k]].y(), 0.98);
+  for (const auto& t : marks.seen.triangles)
+    for (int k = 0; k < 3; ++k) EXPECT_LT(marks.seen.vertices[t[k]].y(), 0.51);
 }
 
 }  // namespace

@@ -80,11 +80,16 @@ std::string of_surface(const Reconstruction& made) {
   });
 }
 
+std::string unseen_words(const Rim& rim) {
+  if (!rim.observed) return " (seen by no view)";
+  const double part = rim.unseen_part();
+  return part > 0 ? fmt::format(" ({:.0f} % seen by no view)", 100 * part) : "";
+}
+
 std::string of_open(const Reconstruction& made) {
   std::string text = of_garments(made.opened.get().garments, [](const std::string& slot, const OpenGarment& garment) {
     std::string rims;
-    for (const auto& rim : garment.rims)
-      rims += (rims.empty() ? "" : ", ") + rim.name + (rim.observed ? "" : " (seen by no view)");
+    for (const auto& rim : garment.rims) rims += (rims.empty() ? "" : ", ") + rim.name + unseen_words(rim);
     return word_of(slot, garment.layout) + " Rims: " + rims + ".";
   });
   for (const auto& [slot, why] : made.opened.get().failed) text += fmt::format("{}: NOT opened, {}. ", slot, why);

@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 #include "eval/run/scene_run.h"

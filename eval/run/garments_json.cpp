@@ -42,7 +42,8 @@ std::string garments_json(const OpenGarments& opened) {
   ordered_json json{{"garments", ordered_json::object()}, {"failed", ordered_json::object()}};
   for (const auto& [slot, garment] : opened.garments) {
     json["garments"][slot] = layout_json(garment.layout);
-    for (const auto& rim : garment.rims) json["garments"][slot]["rims"][rim.name] = {{"observed", rim.observed}};
+    for (const auto& rim : garment.rims)
+      json["garments"][slot]["rims"][rim.name] = {{"observed", rim.observed}, {"unseen_part", rim.unseen_part()}};
   }
   for (const auto& [slot, why] : opened.failed) json["failed"][slot] = why;
   return json.dump(1) + "\n";

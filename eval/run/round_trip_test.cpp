@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "eval/metrics/mesh_distance.h"
 #include "eval/testing/test_meshes.h"

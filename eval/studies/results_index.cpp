@@ -1,6 +1,5 @@
 #include "eval/studies/results_index.h"
 
-#include <fmt/format.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
 

@@ -139,6 +139,20 @@ TEST(StudyToml, EveryStudyOfTheLibraryCanBeRead) {
   EXPECT_GE(count, 4);
 }
 
+TEST(StudyToml, OraclesAreVariants) {
+  const std::string start = kTop + kScenes + kPrimary + "[[variant]]\nname = \"default\"\n[[variant]]\n";
+  const Study one = read_text(start + "oracle = [\"registration\", \"open\"]\nset.fuse.voxel_m = 0.003\n");
+  ASSERT_EQ(one.variants.size(), 3u);
+  EXPECT_EQ(one.variants[2].oracles, (std::vector<std::string>{"open"}));
+  EXPECT_EQ(one.variants[2].options.values.count("fuse"), 1u);
+  const Study all = read_text(start + "every_oracle = true\n");
+  const auto names = names_of(all);
+  EXPECT_NE(std::find(names.begin(), names.end(), "oracle.fuse_naked"), names.end());
+  EXPECT_GE(names.size(), 10u);
+  EXPECT_NE(error_of(start + "oracle = \"fit\"\n").find("truth cannot stand in for; expected one of calibrate"),
+            std::string::npos);
+}
+
 // Each names the line, and what would be right.
 TEST(StudyToml, MistakesAreNamed) {
   const auto expect = [](const std::string& text, const std::string& line, const std::string& words) {

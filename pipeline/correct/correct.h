@@ -26,9 +26,9 @@ struct CorrectTag {
   static constexpr const char* default_variant = "signed_distance_smooth";
 };
 // Penetration taken away: the fitted garments pushed out of the user's body. In: the user's body with its landmarks,
-// the garments on it (m, model frame of the user's scan). Out: the same frame. Throws InputError for a body without
-// triangles. The thesis (section 3.7) tests vertices against the nearest face's centroid; distances here are signed by
-// pseudonormals (Baerentzen and Aanaes, TVCG 2005).
+// the garments on it (m, model frame of the user's scan). Out: the same frame, the same triangles and texture
+// coordinates, vertices moved. Throws InputError for a body without triangles. The thesis (section 3.6) tests vertices
+// against the nearest face's centroid; distances here are signed by pseudonormals (Baerentzen and Aanaes, TVCG 2005).
 using Correct = Stage<CorrectTag, CorrectedGarments(const KnownBody& user, const FittedGarments&)>;
 
 }  // namespace dressform

@@ -34,10 +34,11 @@ struct FillTag {
   static constexpr const char* default_variant = "reproject";
 };
 // The garments' colour and depth in every view, with what an arm hides of them filled in. In: the dressed shots, the
-// naked body and its landmarks (m, model frame), poses, labels. Out: per garment and sensor, at the sizes of colour and
-// IR images; empty masks for views that are not registered. Throws InputError for a body without triangles. The
-// thesis's (section 3.2.2) is thesis_random31, in the manner of texture synthesis by patches (Efros and Leung, ICCV
-// 1999).
+// naked body and its landmarks (m, model frame), poses, labels. Out: per garment and sensor, at the size of the colour
+// image the colour (8-bit BGR) and a mask (uint8: 0, 255 seen, 128 filled), on the IR grid the depth (float32, mm,
+// offset removed, 0 none); empty masks for views that are not registered. Throws InputError for a body without
+// triangles. The thesis's (section 3.2.2) is thesis_random31, in the manner of texture synthesis by patches (Efros and
+// Leung, ICCV 1999).
 using Fill = Stage<FillTag, FilledViews(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                         const Registration&, const Segmentation&)>;
 

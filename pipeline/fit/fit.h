@@ -29,9 +29,10 @@ struct FitTag {
   static constexpr const char* default_variant = "rbf";
 };
 // The garments taken from the mannequin to the user. In: both bodies with their landmarks, each in its own model frame
-// (m, y up), the garments and their layouts on the mannequin. Out: m, model frame of the user's scan. Throws InputError
-// for a body without triangles or trunk, and for a garment without layout. The thesis (section 3.6) uses radial basis
-// functions (Carr et al., SIGGRAPH 2001) on pairs picked by hand.
+// (m, y up), the garments and their layouts on the mannequin. Out: m, model frame of the user's scan: the same
+// triangles and texture coordinates, vertices moved, and the naked body moved alike. Throws InputError for a body
+// without triangles or trunk, and for a garment without layout. The thesis (section 3.6) uses radial basis functions
+// (Carr et al., SIGGRAPH 2001) on pairs picked by hand.
 using Fit = Stage<FitTag, FittedGarments(const KnownBody& naked, const KnownBody& user, const TexturedGarments&,
                                          const GarmentLayouts&)>;
 

@@ -6,38 +6,17 @@
 #include <stdexcept>
 
 #include "pipeline/geometry/point_tree.h"
+#include "scenes/mesh_sides.h"
 
 namespace dressform {
-namespace {
-
-struct Side {
-  int low, high, triangle, corner;
-  bool operator<(const Side& other) const {
-    return std::array{low, high, triangle, corner} < std::array{other.low, other.high, other.triangle, other.corner};
-  }
-};
-
-}  // namespace
 
 TriangleNeighbours triangle_neighbours(const Mesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), k});
-    }
-  std::sort(sides.begin(), sides.end());
   TriangleNeighbours result(mesh.triangles.size(), {-1, -1, -1});
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i;
-    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
-    if (end - i == 2) {
-      result[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;
-      result[sides[i + 1].triangle][sides[i + 1].corner] = sides[i].triangle;
-    }
-    i = end;
-  }
+  for_edges(sorted_sides(mesh), [&](const TriangleSide* first, const TriangleSide* last) {
+    if (last - first != 2) return;
+    result[first[0].triangle][first[0].k] = first[1].triangle;
+    result[first[1].triangle][first[1].k] = first[0].triangle;
+  });
   return result;
 }
 

@@ -9,6 +9,8 @@
 #include <array>
 #include <map>
 
+#include "scenes/statistics.h"
+
 namespace dressform {
 namespace {
 
@@ -61,10 +63,7 @@ double median_spacing_m(const std::vector<Vector3d>& points) {
   if (points.size() < 2) return 0;
   open3d::geometry::PointCloud cloud;
   cloud.points_ = points;
-  std::vector<double> distances = cloud.ComputeNearestNeighborDistance();
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(cloud.ComputeNearestNeighborDistance());
 }
 
 Mesh ball_pivoting_sheet(const PointCloud& cloud, const std::vector<double>& radii_m) {

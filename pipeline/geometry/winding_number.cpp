@@ -7,7 +7,7 @@ namespace dressform {
 namespace {
 
 constexpr int kLeaf = 8;    // triangles whose solid angles are added one by one
-constexpr double kFar = 2;  // radii away from which a node is a dipole: the paper's beta
+constexpr double kFar = 3;  // radii away from which a node is a dipole: at the paper's 2 some points are 0.03 off
 constexpr double kFourPi = 4 * M_PI;
 
 // Solid angle of a triangle seen from the origin over 4 pi (van Oosterom and Strackee, 1983), positive from behind.

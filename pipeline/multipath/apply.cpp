@@ -59,7 +59,7 @@ CaptureSession without_multipath(const CaptureSession& session, const Calibratio
 
 DepthScan without_multipath(const DepthScan& scan, const SensorCalibration& calibration, const Multipath& multipath,
                             const BounceStrength& strength) {
-  DepthScan result{scan.sensor, std::vector<cv::Mat>(scan.depth_mm.size())};
+  DepthScan result{scan.sensor, std::vector<cv::Mat>(scan.depth_mm.size()), scan.world_from_frame};
   const DepthOptics optics(calibration);
   tbb::parallel_for(std::size_t{0}, scan.depth_mm.size(), [&](std::size_t i) {
     const SurfaceCells cells = surface_cells(scan.depth_mm[i], {}, optics);

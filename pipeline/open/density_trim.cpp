@@ -17,6 +17,7 @@
 #include "pipeline/open/open_scene.h"
 #include "pipeline/open/openings.h"
 #include "pipeline/open/support_distance.h"
+#include "scenes/statistics.h"
 #include "scenes/triangle.h"
 
 namespace dressform {
@@ -51,13 +52,11 @@ std::vector<char> largest_piece(const TriangleNeighbours& neighbours, const std:
 std::vector<char> kept_triangles(const Mesh& mesh, const TriangleNeighbours& neighbours, const PointCloud& support,
                                  const DensityTrimParams& params) {
   const std::vector<double> far = support_distances(mesh.vertices, support.points, params.neighbours);
-  std::vector<double> sorted = far;
-  const auto at = static_cast<std::size_t>((1 - params.quantile) * static_cast<double>(sorted.size()));
-  const auto limit = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(at, sorted.size() - 1));
-  std::nth_element(sorted.begin(), limit, sorted.end());
+  const auto at = static_cast<std::size_t>((1 - params.quantile) * static_cast<double>(far.size()));
+  const double limit = nth_value(far, std::min(at, far.size() - 1));
   std::vector<char> off(mesh.triangles.size(), 0), kept(mesh.triangles.size(), 1);
   for (std::size_t t = 0; t < off.size(); ++t)
-    for (const int v : mesh.triangles[t]) off[t] = off[t] || far[v] > *limit;
+    for (const int v : mesh.triangles[t]) off[t] = off[t] || far[v] > limit;
   const Pieces pieces = edge_connected_pieces(neighbours, off);
   const std::vector<double> areas = triangle_areas_m2(mesh);
   std::vector<double> sizes(static_cast<std::size_t>(pieces.count), 0);

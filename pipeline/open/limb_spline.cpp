@@ -89,7 +89,7 @@ CutOutcome cut_open(const Work& work, const OpenScene& scene, const LimbSplinePa
   garment.mesh = without_slivers(cut.mesh, params.shortest_edge_m);
   if (const std::string flaw = flaw_of(garment.mesh, static_cast<int>(work.openings.size())); !flaw.empty())
     return {{}, flaw};
-  garment.rims = named_rims(garment.mesh, cut, work.openings, observed);
+  garment.rims = named_rims(garment.mesh, cut, work.openings, observed, curves);
   garment.layout = with_sleeve_ends(work.closed.layout, garment.mesh, scene.landmarks);
   return {std::move(garment), {}};
 }

@@ -16,18 +16,21 @@
 #include "pipeline/open/open_scene.h"
 #include "pipeline/open/place_votes.h"
 #include "pipeline/open/support_distance.h"
+#include "scenes/triangle.h"
 
 namespace dressform {
 namespace {
 
-constexpr double kThird = 1.0 / 3;       // of a triangle's area belongs to each corner
-constexpr double kFarEnough = 2;         // times unsupported_m off the points: as far as counts
+constexpr double kThird = 1.0 / 3;  // of a triangle's area belongs to each corner
+constexpr double kFarEnough = 2;    // times unsupported_m off the points: as far as counts
+constexpr double kSideways = 0.25;  // of the support's weight on cloth that does not close an opening: under arms and
+                                    // between legs no view sees cloth, and its lack says little
 constexpr double kDualOfEdge = 0.57735;  // of a side: length between the middles of two even triangles that share it
 
 struct MinCutParams {
   double unsupported_m = 0.012;
   double support_weight = 0.5;
-  double smoothness_m = 0.01;
+  double smoothness_m = 0.03;
   double in_front_m = 0.03;
   double least_cosine = 0.2;
   int smooth_rounds = 5;
@@ -63,19 +66,24 @@ std::vector<MeshSide> sides_of(const Mesh& mesh) {
 std::vector<double> corner_areas_m2(const Mesh& mesh) {
   std::vector<double> areas(mesh.vertices.size(), 0);
   for (const Vector3i& t : mesh.triangles) {
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    for (const int v : t) areas[v] += kThird * 0.5 * (b - a).cross(c - a).norm();
+    const double third_m2 = kThird * triangle_area_m2(mesh, t);
+    for (const int v : t) areas[v] += third_m2;
   }
   return areas;
 }
 
-// Per vertex, votes for a cap less those for the garment.
-std::vector<double> cap_votes(const ClosedGarment& closed, const PlaceVotes& seen, const MinCutParams& params) {
+// Per vertex, votes for a cap less those for the garment. Caps lie across their openings.
+std::vector<double> cap_votes(const ClosedGarment& closed, const std::vector<Opening>& openings, const PlaceVotes& seen,
+                              const MinCutParams& params) {
   const std::vector<double> far = support_distances(closed.mesh.vertices, closed.support.points, 1);
+  const std::vector<Vector3d> normals = vertex_normals(closed.mesh);
   std::vector<double> votes(far.size());
   for (std::size_t v = 0; v < votes.size(); ++v) {
     const double lack = std::min(far[v] / params.unsupported_m, kFarEnough) - 1;
-    votes[v] = seen.elsewhere[v] - seen.garment[v] + params.support_weight * lack;
+    double across = 0;
+    for (const Opening& opening : openings) across = std::max(across, opening.axis.dot(normals[v]));
+    const double trust = kSideways + (1 - kSideways) * across;
+    votes[v] = seen.elsewhere[v] - seen.garment[v] + params.support_weight * trust * lack;
   }
   return votes;
 }
@@ -147,7 +155,7 @@ std::string parted(const std::string& name, const ClosedGarment& closed, const O
   const Label label = name == "top" ? Label::top : Label::bottom;
   const PlaceVotes seen =
       place_votes(mesh, label, closed.layout.worn == Worn::under, scene, params.in_front_m, params.least_cosine);
-  const std::vector<double> field = cut_field(mesh, cap_votes(closed, seen, params), params);
+  const std::vector<double> field = cut_field(mesh, cap_votes(closed, openings, seen, params), params);
   std::vector<Cap> caps;
   for (const Opening& opening : openings) {
     caps.push_back({field, pole_of(opening, mesh, parts, field, scene.landmarks)});

@@ -6,7 +6,7 @@
 namespace dressform {
 
 std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::vector<Opening>& openings,
-                            const std::vector<bool>& observed) {
+                            const std::vector<bool>& observed, const std::vector<RimCurve>& curves) {
   std::vector<Vector3d> centres(openings.size(), Vector3d::Zero());
   std::vector<int> counts(openings.size(), 0);
   for (std::size_t i = 0; i < cut.mesh.vertices.size(); ++i) {
@@ -25,8 +25,12 @@ std::vector<Rim> named_rims(const Mesh& mesh, const CutResult& cut, const std::v
       if (distance < nearest) best = k;
       nearest = std::min(nearest, distance);
     }
-    Rim rim{openings[best].name, {}, observed[best]};
-    for (const int v : loop) rim.points.push_back(mesh.vertices[v]);
+    Rim rim{openings[best].name, {}, observed[best], {}};
+    for (const int v : loop) {
+      rim.points.push_back(mesh.vertices[v]);
+      if (!curves.empty())
+        rim.hidden.push_back(!rim.observed || curves[best].unseen(openings[best].angle(mesh.vertices[v])));
+    }
     rims.push_back(std::move(rim));
   }
   return rims;

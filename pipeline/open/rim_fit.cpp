@@ -64,7 +64,9 @@ Eigen::VectorXd solve(const std::vector<RimSample>& samples, const Eigen::Vector
   return solve_symmetric(normal, right);
 }
 
-constexpr int kParts = 24;  // of the turn, one vote each
+constexpr int kCoverParts = 36;  // of the turn, each seen or not
+constexpr int kUnseenParts = 3;  // one after the other without samples: a stretch that no view saw
+constexpr int kParts = 24;       // of the turn, one vote each
 constexpr int kTrials = 600;
 constexpr double kMostTilt_m = 0.08;
 constexpr double kTiltPrice = 40;  // votes per metre of tilt: small against a vote unless little is seen
@@ -163,12 +165,24 @@ double RimCurve::at(double angle) const {
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
+bool RimCurve::unseen(double angle) const {
+  const int count = static_cast<int>(covered.size());
+  if (!count) return true;
+  const int at = place(angle, count).knot;
+  int run = 0;
+  for (const int way : {1, -1})
+    for (int step = way == 1 ? 0 : 1; step < count && !covered[((at + way * step) % count + count) % count]; ++step)
+      ++run;
+  return run >= kUnseenParts;
+}
+
 RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& params) {
   RimCurve curve;
   if (samples.empty()) return curve;
   const int count = params.knots;
   const FlatCut flat = fit_flat_cut(samples, 2 * params.scale_m);
-  const RimCurve path{best_rim_path(samples, flat, {params.scale_m, params.bend_price})};
+  RimCurve path;
+  path.knots = best_rim_path(samples, flat, {params.scale_m, params.bend_price});
   for (int i = 0; i < count; ++i) curve.knots.push_back(path.at(rim_knot_angle(i, count)));
   Eigen::VectorXd weights(samples.size());
   for (int round = 0; round < params.rounds; ++round) {
@@ -180,16 +194,16 @@ RimCurve fit_rim(const std::vector<RimSample>& samples, const RimFitParams& para
     const Eigen::VectorXd off = solve(samples, weights, params.smoothness, params.flatness, path, count);
     for (int i = 0; i < count; ++i) curve.knots[i] = path.at(rim_knot_angle(i, count)) + off[i];
   }
-  std::vector<char> covered(36, 0);
+  curve.covered.assign(kCoverParts, 0);
   double squares = 0;
   for (const RimSample& s : samples) {
     const double residual = s.along - curve.at(s.angle);
     if (std::abs(residual) > 4 * params.scale_m) continue;
     ++curve.inliers;
     squares += residual * residual;
-    covered[place(s.angle, 36).knot] = 1;
+    curve.covered[place(s.angle, kCoverParts).knot] = 1;
   }
-  curve.coverage = std::count(covered.begin(), covered.end(), 1) / 36.0;
+  curve.coverage = std::count(curve.covered.begin(), curve.covered.end(), 1) / static_cast<double>(kCoverParts);
   if (curve.inliers) curve.residual_rms_m = std::sqrt(squares / curve.inliers);
   return curve;
 }

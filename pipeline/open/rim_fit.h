@@ -14,11 +14,14 @@ struct RimSample {
 // A closed curve along(angle): a periodic spline on evenly spaced knots.
 struct RimCurve {
   std::vector<double> knots;  // values at angle = -pi + 2 pi i / size
-  double coverage = 0;        // part of the angles that have samples close to the curve
+  std::vector<char> covered;  // which parts of the turn, evenly from -pi on, have samples close to the curve
+  double coverage = 0;        // part of the turn that has
   double residual_rms_m = 0;  // of the samples that count
   int inliers = 0;
 
   double at(double angle) const;
+  // Whether the angle lies in a stretch of the turn that no sample shows: gaps of less than 30 degrees are only thin.
+  bool unseen(double angle) const;
 };
 
 struct RimFitParams {

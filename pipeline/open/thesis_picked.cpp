@@ -87,7 +87,7 @@ std::optional<OpenGarment> opened(const std::string& name, const ClosedGarment& 
   garment.layout = with_kind(closed.layout, {kind, closed.layout.sure_kind}, limbs);
   for (std::size_t i = 0; i < rims.size(); ++i) {
     stitch(garment.mesh, cut.boundaries[i], rims[i].points);
-    garment.rims.push_back({rims[i].name, rims[i].points, observed(rims[i].name, garment.layout)});
+    garment.rims.push_back({rims[i].name, rims[i].points, observed(rims[i].name, garment.layout), {}});
   }
   garment.mesh = compacted(garment.mesh);
   if (!(why = flaw_of(garment.mesh, static_cast<int>(rims.size()))).empty()) return {};

@@ -30,9 +30,11 @@ struct SegmentTag {
 };
 // Who is what in the dressed shots: skin, top, bottom; and what garments there are. In: colour (8-bit BGR) and depth
 // (mm, raw) of the dressed and, where there are, the naked shots, the naked body and its landmarks (m, model frame),
-// masks and poses of the views. Views that are not registered are labelled none throughout. Throws InputError for a
-// body without triangles. Papers: JSEG (Deng and Manjunath, PAMI 2001) is the thesis's; joint_mrf cuts graphs (Boykov
-// and Jolly, ICCV 2001) over learnt colours (Rother, Kolmogorov and Blake, GrabCut, SIGGRAPH 2004).
+// masks and poses of the views. Out: uint8 labels at the size of each colour image (raw pixels: 0 none, 1 skin, 2 top,
+// 3 bottom) and a layout for each garment (m, model frame). Views that are not registered are labelled none throughout.
+// Throws InputError for a body without triangles. Papers: JSEG (Deng and Manjunath, PAMI 2001) is the thesis's;
+// joint_mrf cuts graphs (Boykov and Jolly, ICCV 2001) over learnt colours (Rother, Kolmogorov and Blake, GrabCut,
+// SIGGRAPH 2004).
 using Segment = Stage<SegmentTag, Segmentation(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                                const ExtractedViews&, const Registration&)>;
 

@@ -40,7 +40,7 @@ TEST(GreedyCentres, FindTwoBallsWithAPartOfTheSamples) {
   const SignedSamples samples = signed_samples(two_balls(1000), 0.02, 0.001, 2);
   GreedyFit fit;
   fit.first_centres = 60;
-  fit.most_centres = 600;
+  fit.most_centres = 900;
   fit.smoothing_m = 0;
   fit.tolerance_m = 0.001;
   const auto centres = greedy_centres(samples, fit);

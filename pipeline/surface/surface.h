@@ -34,9 +34,10 @@ struct SurfaceTag {
 };
 // A closed surface of every garment, which runs on a little beyond its ends and is capped there. In: the dressed depth
 // (mm, raw), the naked body and its landmarks, the filled views and the layouts that segment found. Out: m, model
-// frame. Garments that too few points show are absent. Views that are not registered are left out. Throws InputError
-// for a body without triangles. The thesis (section 3.4) uses Poisson's reconstruction (Kazhdan, Bolitho and Hoppe, SGP
-// 2006), which closes armpits with webs; the variants' files name what they do instead.
+// frame: triangles that are closed, manifold, outward and of one piece, and the points they were made from. Garments
+// that too few points show are absent. Views that are not registered are left out. Throws InputError for a body without
+// triangles. The thesis (section 3.4.1) uses Poisson's reconstruction (Kazhdan, Bolitho and Hoppe, SGP 2006), which
+// closes armpits with webs; the variants' files name what they do instead.
 using Surface = Stage<SurfaceTag, ClosedGarments(const CaptureSession&, const Calibration&, const KnownBody& naked,
                                                  const Registration&, const FilledViews&, const GarmentLayouts&)>;
 

@@ -67,17 +67,17 @@ std::vector<float> truncated_distances(const Lattice& lattice, const std::vector
     double sum = 0, weights = 0;
     bool behind = false;
     for (const ClothDepth& each : cloth) {
-      if (free_space_violation_m(*each.view, point) > params.see_through_m) return far;
       const Vector3d p = each.view->sensor_from_model * point;
       if (p.z() < kNearest_m) continue;
       const Vector2d pixel = each.view->sensor->ir.project(p);
       const bool in_image =
           pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < each.depth_mm.cols - 1 && pixel.y() < each.depth_mm.rows - 1;
       if (!in_image) continue;
+      const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
+      if (each.view->depth_mm.at<float>(y, x) / 1000.0 - p.z() > params.see_through_m) return far;
       const float z_mm = depth_between(each.depth_mm, pixel, params.jump_mm);
       if (z_mm <= 0) continue;
       const double distance = z_mm / 1000.0 - p.z();
-      const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
       const double weight = each.weight.at<float>(y, x);
       behind = behind || distance < -params.truncation_m;
       if (distance < -params.truncation_m || weight <= 0) continue;

@@ -16,7 +16,7 @@ struct ClothDepth {
 
 struct TruncationParams {
   double truncation_m = 0.02;   // farther distances count as this
-  double see_through_m = 0.03;  // a point this far in front of all that a view sees is empty
+  double see_through_m = 0.03;  // a point this far in front of what a view's pixel sees is empty
   double jump_mm = 25;          // neighbouring depth pixels that differ by more are not one surface
   double range_mm = 10;         // of the bilateral filter, in depth; 0: depth as it is
   double space_px = 1.5;        // of the bilateral filter, in the image

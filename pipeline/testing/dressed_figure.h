@@ -31,8 +31,13 @@ inline double leg(const Vector3d& p, double side) {
 inline double torso(const Vector3d& p) {
   return std::min(capsule(p, {0, 1.0, 0}, {0, 1.35, 0}, 0.15), capsule(p, {0, 1.4, 0}, {0, 1.7, 0}, 0.06));
 }
-inline double body(const Vector3d& p) {
+// A chin that juts so far out, down before the neckline.
+inline double chin(const Vector3d& p, double juts_m) {
+  return capsule(p, {0, 1.64, 0.05}, {0, 1.64 - 1.75 * juts_m, 0.05 + juts_m}, 0.025);
+}
+inline double body(const Vector3d& p, double chin_m = 0) {
   double d = std::min(torso(p), (p - Vector3d(0, 1.68, 0)).norm() - 0.10);
+  if (chin_m > 0) d = std::min(d, chin(p, chin_m));
   for (const double side : {-1.0, 1.0}) d = std::min({d, arm(p, side), leg(p, side)});
   return d;
 }
@@ -46,6 +51,7 @@ struct Clothes {
   double waist_y = 1.08, ankle_y = 0.25;
   bool skirt = false;
   double shirt_ease_m = 0.020, bottom_ease_m = 0.010;
+  double chin_m = 0;  // of who wears them: 0 has none
 };
 
 // Negative inside the shirt taken as a solid, flat at its ends.
@@ -77,8 +83,8 @@ Mesh surface_of(const Vector3d& low, const Vector3d& high, double step_m, F&& di
   for (std::size_t i = 0; i < field.size(); ++i) field[i] = static_cast<float>(distance(lattice.point(i)));
   return lattice_surface(lattice, field);
 }
-inline Mesh body_mesh(double step_m = 0.012) {
-  return surface_of({-0.45, 0, -0.25}, {0.45, 1.8, 0.25}, step_m, [](const Vector3d& p) { return body(p); });
+inline Mesh body_mesh(double step_m = 0.012, double chin_m = 0) {
+  return surface_of({-0.45, 0, -0.25}, {0.45, 1.8, 0.25}, step_m, [=](const Vector3d& p) { return body(p, chin_m); });
 }
 
 // What the stages after segmentation are given.
@@ -111,7 +117,7 @@ inline std::pair<double, Label> look(const Camera& camera, const Isometry3d& mod
   double t = 1.0;
   for (int i = 0; i < 200 && t < 4; ++i) {
     const Vector3d p = model_from_camera.translation() + t * direction;
-    const double d[3] = {body(p), shirt(p, c), bottom(p, c)};
+    const double d[3] = {body(p, c.chin_m), shirt(p, c), bottom(p, c)};
     const double nearest = std::min({d[0], d[1], d[2]});
     if (nearest < 2e-4) {
       Label label = Label::skin;
@@ -125,10 +131,24 @@ inline std::pair<double, Label> look(const Camera& camera, const Isometry3d& mod
   return {0, Label::none};
 }
 
+// One of four sensors round the figure, quarter turns apart: model from sensor.
+inline Isometry3d looking_from_side(int k) {
+  Isometry3d model_from_sensor = Isometry3d::Identity();
+  model_from_sensor.rotate(Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()));
+  Eigen::Matrix3d facing;
+  facing.col(0) = Vector3d(1, 0, 0);
+  facing.col(1) = Vector3d(0, -1, 0);
+  facing.col(2) = Vector3d(0, 0, -1);
+  model_from_sensor.linear() = model_from_sensor.linear() * facing;
+  model_from_sensor.translation() =
+      Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()) * Vector3d(0, 0, 2.1) + Vector3d(0, 0.95, 0);
+  return model_from_sensor;
+}
+
 inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double scale = 0.5, Seed seed = 1) {
   Capture result;
   result.clothes = clothes;
-  result.naked.body = body_mesh();
+  result.naked.body = body_mesh(0.012, clothes.chin_m);
   result.naked.converged = true;
   result.body = known_body(result.naked.body);
   SensorCalibration sensor;
@@ -137,15 +157,7 @@ inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double sc
   sensor.color_from_ir.translation() = Vector3d(0.05, 0, 0);
   for (int k = 0; k < 4; ++k) {
     const std::string name = "k" + std::to_string(k + 1);
-    Isometry3d model_from_sensor = Isometry3d::Identity();
-    model_from_sensor.rotate(Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()));
-    Eigen::Matrix3d facing;
-    facing.col(0) = Vector3d(1, 0, 0);
-    facing.col(1) = Vector3d(0, -1, 0);
-    facing.col(2) = Vector3d(0, 0, -1);
-    model_from_sensor.linear() = model_from_sensor.linear() * facing;
-    model_from_sensor.translation() =
-        Eigen::AngleAxisd(k * M_PI / 2, Vector3d::UnitY()) * Vector3d(0, 0, 2.1) + Vector3d(0, 0.95, 0);
+    const Isometry3d model_from_sensor = looking_from_side(k);
     result.session.sensors.push_back(name);
     result.calibration.sensors[name] = sensor;
     result.registration.model_from_sensor[name] = model_from_sensor;

@@ -30,9 +30,9 @@ TEST(PhotoConsistent, AViewThatWasRegisteredWrongMovesBack) {
   const GarmentViews before = views_of(wrong);
   const double should = color_spread(*before.mesh, views_of(right).views, before.samples, params);
   const double spread = color_spread(*before.mesh, before.views, before.samples, params);
-  ASSERT_GT(spread, 3 * should);
+  ASSERT_GT(spread, 1.5 * should);  // oblique pixels blur the waves
   const auto views = photo_consistent(*before.mesh, before.views, before.samples, params);
-  EXPECT_LT(color_spread(*before.mesh, views, before.samples, params), 0.5 * spread);
+  EXPECT_LT(color_spread(*before.mesh, views, before.samples, params), should + 0.25 * (spread - should));
 }
 
 TEST(PhotoConsistent, PlainClothMovesNothing) {

@@ -1,9 +1,9 @@
 #include "pipeline/texture/surface_graph.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "scenes/mesh_sides.h"
 #include "scenes/triangle.h"
 
 namespace dressform {
@@ -12,19 +12,6 @@ namespace {
 constexpr double kMostSteps = 2000;  // of spreading: a reach beyond that is the whole garment
 constexpr int kMostSweeps = 300;
 constexpr float kSettled = 0.255f;  // a thousandth of the levels: changes smaller than this are not seen
-
-// Sides of all triangles, sorted by their vertices.
-std::vector<std::array<int, 3>> sorted_sides(const Mesh& mesh) {
-  std::vector<std::array<int, 3>> sides;  // a, b, triangle
-  sides.reserve(mesh.triangles.size() * 3);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
-      sides.push_back({a, b, static_cast<int>(i)});
-    }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
 
 Eigen::RowVectorXf neighbor_mean(const SurfaceGraph& graph, const Eigen::MatrixXf& values, int vertex) {
   Eigen::RowVectorXf sum = Eigen::RowVectorXf::Zero(values.cols());
@@ -64,17 +51,17 @@ std::vector<int> spread_in_layers(const SurfaceGraph& graph, Eigen::MatrixXf& va
 }  // namespace
 
 SurfaceGraph::SurfaceGraph(const Mesh& mesh) : neighbors(mesh.vertices.size()) {
-  const auto sides = sorted_sides(mesh);
-  for (std::size_t i = 0; i < sides.size();) {
-    const auto [a, b, triangle] = sides[i];
-    Edge edge{a, b, triangle, -1, (mesh.vertices[a] - mesh.vertices[b]).norm()};
-    ++i;
-    if (i < sides.size() && sides[i][0] == a && sides[i][1] == b) edge.right = sides[i++][2];
-    edges.push_back(edge);
-    mean_edge_m += edge.length_m;
-    neighbors[a].push_back(b);
-    neighbors[b].push_back(a);
-  }
+  for_edges(sorted_sides(mesh), [&](const TriangleSide* side, const TriangleSide* last) {
+    const int a = side->low, b = side->high;
+    while (side < last) {
+      Edge edge{a, b, side->triangle, -1, (mesh.vertices[a] - mesh.vertices[b]).norm()};
+      if (++side < last) edge.right = side++->triangle;
+      edges.push_back(edge);
+      mean_edge_m += edge.length_m;
+      neighbors[a].push_back(b);
+      neighbors[b].push_back(a);
+    }
+  });
   if (!edges.empty()) mean_edge_m /= static_cast<double>(edges.size());
   for (auto& list : neighbors) {
     std::sort(list.begin(), list.end());

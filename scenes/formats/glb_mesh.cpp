@@ -1,6 +1,5 @@
 #include <tiny_gltf.h>
 
-#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>

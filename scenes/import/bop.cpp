@@ -3,6 +3,7 @@
 #include "scenes/error.h"
 #include "scenes/image_file.h"
 #include "scenes/import/import.h"
+#include "scenes/import/recorded_poses.h"
 #include "scenes/import/stamped_files.h"
 #include "scenes/json_file.h"
 #include "scenes/session_limits.h"
@@ -43,6 +44,15 @@ BopCamera read_camera(const JsonValue& entry) {
   return result;
 }
 
+// Rows of the rotation; millimetres.
+std::optional<Isometry3d> read_pose(const JsonValue& entry) {
+  if (!entry.has("cam_R_w2c") || !entry.has("cam_t_w2c")) return {};
+  const JsonValue rotation = entry.at("cam_R_w2c");
+  const auto r = rotation.numbers(9), t = entry.at("cam_t_w2c").numbers(3);
+  const Eigen::Matrix3d rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(r.data());
+  return rigid_motion(rotation.where(), rows, 1e-3 * Vector3d(t[0], t[1], t[2])).inverse();
+}
+
 bool same_lens(const Camera& a, const Camera& b) {
   return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy;
 }
@@ -75,15 +85,13 @@ Recording bop(const fs::path& folder, const RecordingUse& use, const BopParams& 
           "found another camera than that of the first image; expected one camera, which does not "
           "zoom or crop, in a recording");
     if (!first) first = camera.camera, recording.depth_per_m = camera.depth_per_m;
-    recording.frames.push_back({color.path, {}, depth.path, camera.depth_per_m});
+    recording.frames.push_back({color.path, {}, depth.path, camera.depth_per_m, read_pose(entry)});
   }
   recording.sensor.ir = *first;
   const cv::Size size = read_image(recording.frames.front().depth, kDepthImage).size();
   recording.sensor.ir.width = size.width, recording.sensor.ir.height = size.height;
   if (const auto found = problem_with(recording.sensor.ir))
     cameras.fail("cam_K: " + found->field + ": " + found->problem);
-  if (cameras.at(cameras.names().front()).has("cam_R_w2c"))
-    recording.notes.push_back("cam_R_w2c, cam_t_w2c were left out: a session has no place for the poses of a scan");
   return recording;
 }
 

@@ -53,7 +53,9 @@ TEST_F(ImportBop, ScanAndShot) {
   EXPECT_EQ(camera.width, 64);
   EXPECT_EQ(camera.fy, 57.4);
   EXPECT_EQ(camera.cx, 32.5);
-  EXPECT_THAT(report_.notes, Contains(HasSubstr("no place for the poses of a scan")));
+  EXPECT_THAT(report_.notes, Contains(HasSubstr("3 of 3 frames have a recorded pose")));
+  ASSERT_EQ(scan.world_from_frame.size(), 3u);
+  EXPECT_TRUE(scan.world_from_frame[1].translation().isApprox(Vector3d(0, 0, -0.7)));
   fs::remove_all(session_);
   session = imported(of("bop", "naked"));
   EXPECT_EQ(session.naked.at("k1").depth_mm.at<std::uint16_t>(7, 7), 2000);

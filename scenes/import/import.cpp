@@ -8,6 +8,7 @@
 #include "scenes/image_file.h"
 #include "scenes/import/frame_writer.h"
 #include "scenes/import/merge_session.h"
+#include "scenes/scan_poses.h"
 #include "scenes/session_folder.h"
 #include "scenes/session_layout.h"
 #include "scenes/session_limits.h"
@@ -137,6 +138,15 @@ void check_whole(const std::vector<RecordedFrame>& frames, RecordingUse use, con
   }
 }
 
+// The frames' poses, where the recording has any.
+void keep_poses(const std::vector<RecordedFrame>& frames, DepthScan& scan, std::vector<std::string>& notes) {
+  const auto known = std::count_if(frames.begin(), frames.end(), [](const auto& f) { return f.world_from_frame; });
+  if (known == 0) return;
+  for (const auto& frame : frames) scan.world_from_frame.push_back(frame.world_from_frame.value_or(no_pose()));
+  notes.push_back(
+      fmt::format("{} of {} frames have a recorded pose, which fuse's known_poses takes", known, frames.size()));
+}
+
 }  // namespace
 
 ImportReport import_recording(const fs::path& folder, const ImportRequest& asked, const fs::path& session) {
@@ -156,7 +166,8 @@ ImportReport import_recording(const fs::path& folder, const ImportRequest& asked
                       calibration.value_or(SensorCalibration{}),
                       calibration.has_value(),
                       recording.notes};
-  const CaptureSession outline = merged_session(request, calibration, static_cast<int>(frames.size()), report.notes);
+  CaptureSession outline = merged_session(request, calibration, static_cast<int>(frames.size()), report.notes);
+  if (use == RecordingUse::scan) keep_poses(frames, outline.scans.at(request.role), report.notes);
   NewFolder writer(session);
   if (!request.with.empty()) copy_images(request.with, writer.temporary());
   write_frames(frames, recording, {writer.temporary(), request.role, request.sensor, use, sizes.color, sizes.depth},

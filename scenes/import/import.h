@@ -13,7 +13,8 @@ namespace dressform {
 // One moment of a recording. Paths of images; empty: not recorded.
 struct RecordedFrame {
   std::filesystem::path color, ir, depth;
-  double depth_per_m = 0;  // of this frame alone; 0: as the recording
+  double depth_per_m = 0;                           // of this frame alone; 0: as the recording
+  std::optional<Isometry3d> world_from_frame = {};  // of the camera of the depth image, as the recording has it
 };
 
 // What another tool left in a folder, before any image but the first is opened.

@@ -3,13 +3,15 @@
 
 #include "scenes/error.h"
 #include "scenes/import/import.h"
+#include "scenes/import/recorded_poses.h"
 #include "scenes/import/stamped_files.h"
 #include "scenes/json_file.h"
 #include "scenes/session_limits.h"
 
 // Recordings of redwood-data.org and of Open3D's recorders: Choi et al., "A large dataset of object scans",
 // arXiv:1602.02481. depth/ holds 16-bit PNG, millimetres, on colour's grid; colour is in rgb/, image/, color/ or
-// colors/. Files are named by frame, or by frame and microseconds. intrinsic.json as Open3D writes it.
+// colors/. Files are named by frame, or by frame and microseconds. intrinsic.json as Open3D writes it, and
+// trajectory.log or odometry.log with the poses of frames, where they are.
 namespace dressform {
 namespace {
 
@@ -62,6 +64,23 @@ void read_frames(const fs::path& folder, const RecordingUse& use, const StreamPa
   recording.notes.push_back("no folder of colour: synchronisation was not checked");
 }
 
+// By the frame's place among the depth images, which a log counts from 0.
+void read_poses(const fs::path& folder, Recording& recording) {
+  const fs::path log = first_existing(folder, {"trajectory.log", "odometry.log"});
+  if (log.empty()) return;
+  const auto depth = numbered_files(folder / "depth").files;
+  const auto poses = logged_poses(log);
+  if (poses.size() > depth.size())
+    throw InputError(log.string(), "found a pose of frame " + std::to_string(poses.size() - 1) +
+                                       "; expected frames 0 to " + std::to_string(depth.size() - 1) +
+                                       ", as many as there are depth images");
+  std::size_t next = 0;  // frames without a partner in colour were left out
+  for (RecordedFrame& frame : recording.frames) {
+    while (depth[next].path != frame.depth) ++next;
+    if (next < poses.size()) frame.world_from_frame = poses[next];
+  }
+}
+
 Recording redwood(const fs::path& folder, const RecordingUse& use, const StreamParams& params) {
   if (use == RecordingUse::boards) fail_without_infrared(folder);
   Recording recording;
@@ -69,6 +88,7 @@ Recording redwood(const fs::path& folder, const RecordingUse& use, const StreamP
   recording.prime_sense = true;
   set_stream(recording, params);
   read_frames(folder, use, params, recording);
+  read_poses(folder, recording);
   const fs::path intrinsics = first_existing(folder, {"intrinsic.json", "camera_intrinsic.json"});
   if (!intrinsics.empty()) {
     recording.sensor.model = "unknown";  // any sensor that a recorder of Open3D knows

@@ -90,6 +90,31 @@ TEST_F(ImportRedwood, CodesForNoDepth) {
   EXPECT_EQ(cv::countNonZero(frame(hole)), 0);
 }
 
+// A log counts the depth images; the second frame has no colour, the last no pose.
+TEST_F(ImportRedwood, KeepsLoggedPoses) {
+  for (const int i : {0, 1, 2, 3}) image("depth/0000" + std::to_string(i) + ".png", wall(i));
+  for (const int i : {0, 2, 3}) write("color/0000" + std::to_string(i) + ".jpg", "never opened");
+  const auto block = [](int frame, double x) {
+    return std::to_string(frame) + "\t" + std::to_string(frame) + "\t5\n1 0 0 " + std::to_string(x) +
+           "\n0 0 -1 2\n0 1 0 3\n0 0 0 1\n";
+  };
+  write("trajectory.log", block(0, 1) + block(1, 2) + block(2, 4));
+  const CaptureSession session = imported(of("redwood"));
+  const auto& poses = session.scans.at("scan_user").world_from_frame;
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_TRUE(poses[0].translation().isApprox(Vector3d(1, 2, 3)));
+  EXPECT_TRUE(poses[1].translation().isApprox(Vector3d(4, 2, 3)));
+  EXPECT_EQ(poses[1].linear()(2, 1), 1);
+  EXPECT_FALSE(poses[2].matrix().allFinite());
+  fs::remove_all(session_);
+  write("trajectory.log", block(7, 1));
+  EXPECT_THAT(error(of("redwood")), HasSubstr("trajectory.log: found a pose of frame 7; expected frames 0 to 3"));
+  write("trajectory.log", "0 0 1\n1 0 0 0\n0 1 0 0\n0 0 2 0\n0 0 0 1\n");
+  EXPECT_THAT(error(of("redwood")), HasSubstr("trajectory.log:2: found a matrix that is no rotation"));
+  write("trajectory.log", "0 0 1\n1 0 0 0\n0 1 0 0\n");
+  EXPECT_THAT(error(of("redwood")), HasSubstr("trajectory.log:3: found no more lines"));
+}
+
 TEST_F(ImportRedwood, FramesThatRepeat) {
   for (int i = 0; i < 4; ++i) image("depth/0000" + std::to_string(i) + ".png", wall(i));
   imported(of("redwood"));

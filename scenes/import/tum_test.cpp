@@ -61,6 +61,36 @@ TEST_F(ImportTum, MillimetresAndCameraAreExact) {
   EXPECT_EQ(session.licence, "unknown");
 }
 
+// Poses by motion capture, between whose moments the frames were taken; for a while the camera was not seen.
+TEST_F(ImportTum, KeepsRecordedPoses) {
+  write("groundtruth.txt",
+        "# stamp tx ty tz qx qy qz qw\n130503.09 1 0 0 0 0 0 1\n130503.11 3 0 0 0 0 0.7071 0.7071\n"
+        "130503.2 4 5 6 0 0 0 1\n130503.28 0 0 0 0 0 0 1\n130503.36 0 0 0 0 0 0 1\n");
+  const CaptureSession session = imported(of("tum"));
+  const auto& poses = session.scans.at("scan_user").world_from_frame;
+  ASSERT_EQ(poses.size(), 4u);
+  EXPECT_TRUE(poses[0].translation().isApprox(Vector3d(2, 0, 0), 1e-6));
+  EXPECT_NEAR(Eigen::AngleAxisd(poses[0].linear()).angle(), M_PI / 4, 1e-4);
+  EXPECT_TRUE(poses[1].translation().isApprox(Vector3d(4, 5, 6)));
+  EXPECT_FALSE(poses[2].matrix().allFinite()) << "80 ms between two poses";
+  EXPECT_FALSE(poses[3].matrix().allFinite()) << "after the last one";
+  EXPECT_THAT(report_.notes, testing::Contains(HasSubstr("2 of 4 frames have a recorded pose")));
+  // Another import into the same session takes them along.
+  fs::rename(session_, root_ / "with");
+  ImportRequest more = of("tum", "scan_naked");
+  more.with = root_ / "with";
+  const CaptureSession both = imported(more);
+  EXPECT_EQ(both.scans.at("scan_user").world_from_frame.size(), 4u);
+  EXPECT_EQ(both.scans.at("scan_naked").world_from_frame.size(), 4u);
+  fs::remove_all(session_);
+  write("groundtruth.txt", "130503.09 1 0 0 0 0 0 1\n130503.1 1 0 0 0 0 0 2\n");
+  EXPECT_THAT(error(of("tum")), HasSubstr("groundtruth.txt:2: found a quaternion of length 2"));
+  write("groundtruth.txt", "130503.09 1 0 0 0 0 1\n");
+  EXPECT_THAT(error(of("tum")), HasSubstr("groundtruth.txt:1: found \"130503.09 1 0 0 0 0 1\"; expected a stamp"));
+  write("groundtruth.txt", "130503.09 1 0 0 0 0 0 1\n130503.09 1 0 0 0 0 0 1\n");
+  EXPECT_THAT(error(of("tum")), HasSubstr("groundtruth.txt:2: found stamp 130503.090000 after"));
+}
+
 TEST_F(ImportTum, FramesWithoutColourAreLeftOutAndCounted) {
   write("rgb.txt", "130503.105 rgb/a.png\n130503.29 rgb/b.png\n130503.401 rgb/c.png\n130503.402 rgb/d.png\n");
   const CaptureSession session = imported(of("tum", "scan_naked"));

@@ -55,7 +55,8 @@ std::vector<Asked> asked_measures(const BodySpec& spec) {
   const Asked lengths[] = {{"body.inseam_m", {&BodySizes::crotch_height, spec.inseam_m}},
                            {"body.knee_height_m", {&BodySizes::knee_height, spec.knee_height_m}},
                            {"body.upper_arm_m", {&BodySizes::upper_arm_length, spec.upper_arm_m}},
-                           {"body.forearm_m", {&BodySizes::forearm_length, spec.forearm_m}}};
+                           {"body.forearm_m", {&BodySizes::forearm_length, spec.forearm_m}},
+                           {"body.neck_m", {&BodySizes::neck_girth, spec.neck_m}}};
   for (const Asked& length : lengths)
     if (length.known.value_m != 0) asked.push_back(length);
   return asked;

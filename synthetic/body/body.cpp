@@ -38,6 +38,16 @@ double crotch_on(const Mesh& mesh, double expected) {
   return low;
 }
 
+// Above the waist every level is moved forward, more the higher it is: sections and heights stay what they are.
+Body hunched(Body body, double forward_m) {
+  if (forward_m == 0) return body;
+  const double waist = body.landmarks.waist, back = body.landmarks.neck - waist;
+  const auto bend = [=](Vector3d& p) { p.z() += forward_m * std::pow(std::max(0.0, p.y() - waist) / back, 2); };
+  for (Vector3d& v : body.mesh.vertices) bend(v);
+  for (auto& [name, place] : body.joints) bend(place);
+  return body;
+}
+
 // The mesh cuts the field's corners by a fraction of a millimetre: what is asked of the field is corrected by what is
 // then measured on the mesh.
 Body procedural_body(const BodySpec& spec) {
@@ -56,7 +66,7 @@ Body procedural_body(const BodySpec& spec) {
                          spec.hip_m - tape_girth(mesh, marks.hip));
     const double crotch_error = spec.inseam_m > 0 ? spec.inseam_m - crotch_on(mesh, spec.inseam_m) : 0;
     const double worst = std::max(error.cwiseAbs().maxCoeff(), std::abs(crotch_error));
-    if (worst < 7e-4) return {std::move(mesh), marks, mannequin.joints};
+    if (worst < 7e-4) return hunched({std::move(mesh), marks, mannequin.joints}, spec.hunch_m);
     if (round == 6)
       throw InputError(
           "body", fmt::format("girths or inseam come out {:.1f} mm off; expected measures of a person", 1000 * worst));

@@ -125,7 +125,7 @@ TEST_P(Poses, AreClosedAndHoldTheArmsClear) {
     EXPECT_EQ(horizontal_section(body.mesh, body.landmarks.chest).size(), 3u);
   }
 }
-INSTANTIATE_TEST_SUITE_P(All, Poses, testing::Values("mannequin", "a_pose", "bent_arms"));
+INSTANTIATE_TEST_SUITE_P(All, Poses, testing::Values("mannequin", "a_pose", "bent_arms", "one_arm_bent"));
 
 TEST(Body, PosesDiffer) {
   BodySpec spec;
@@ -140,6 +140,61 @@ TEST(Body, PosesDiffer) {
   EXPECT_NEAR(bend_deg("a_pose"), 4, 0.5);
   EXPECT_NEAR(bend_deg("bent_arms"), 18, 0.5);
   EXPECT_THROW(bend_deg("headstand"), InputError);
+}
+
+// The foremost point in the middle between two heights, m; 0 where there is none.
+double foremost(const Mesh& mesh, double low, double high) {
+  double front = 0;
+  for (const Vector3d& v : mesh.vertices)
+    if (std::abs(v.x()) < 0.01 && v.y() > low && v.y() < high) front = std::max(front, v.z());
+  return front;
+}
+
+void expect_closed(const Body& body) {
+  const Topology shape = topology(body.mesh);
+  EXPECT_TRUE(shape.closed());
+  EXPECT_EQ(shape.components, 1);
+  EXPECT_EQ(shape.euler(), 2);
+}
+
+TEST(Body, AChinJutsOutBeforeTheNeckAndANeckIsAsBroadAsAsked) {
+  BodySpec spec;
+  const Body usual = make_body(spec);
+  spec.chin_m = 0.08;
+  spec.bow_deg = 28;
+  const Body jutting = make_body(spec);
+  expect_closed(jutting);
+  const double low = usual.landmarks.neck - 0.05, high = usual.landmarks.neck - 0.01;
+  EXPECT_GT(foremost(jutting.mesh, low, high), foremost(usual.mesh, low, high) + 0.03);
+  EXPECT_NEAR(tape_girth(jutting.mesh, jutting.landmarks.chest), spec.chest_m, 1e-3);
+  spec = {};
+  spec.neck_m = 0.46;
+  const Body broad = make_body(spec);
+  const auto neck_girth = [](const Body& body) { return tape_girth(body.mesh, body.landmarks.neck + 0.03); };
+  EXPECT_GT(neck_girth(broad), neck_girth(usual) + 0.03);
+  spec.neck_m = 0.8;
+  EXPECT_THROW(make_body(spec), InputError);
+}
+
+TEST(Body, AHunchMovesTheNeckForwardAndKeepsTheGirths) {
+  BodySpec spec;
+  const Body upright = make_body(spec);
+  spec.hunch_m = 0.09;
+  const Body hunched = make_body(spec);
+  expect_closed(hunched);
+  EXPECT_NEAR(tape_girth(hunched.mesh, hunched.landmarks.chest), spec.chest_m, 1e-3);
+  EXPECT_NEAR(hunched.joints.at("Neck").z() - upright.joints.at("Neck").z(), 0.09, 0.01);
+  EXPECT_EQ(hunched.joints.at("KneeLeft"), upright.joints.at("KneeLeft"));
+}
+
+TEST(Body, OneArmIsBentAndTheOtherHangs) {
+  BodySpec spec;
+  const Body usual = make_body(spec);
+  spec.pose = "one_arm_bent";
+  const Body body = make_body(spec);
+  EXPECT_EQ(body.joints.at("WristLeft"), usual.joints.at("WristLeft"));
+  EXPECT_GT(body.joints.at("WristRight").z(), usual.joints.at("WristRight").z() + 0.05);
+  EXPECT_LT(body.joints.at("WristRight").x(), -0.2);
 }
 
 TEST(Body, OwnMeshIsMeasuredBySlices) {

@@ -30,14 +30,16 @@ struct ArmPose {
   double angle, bend;
 };
 
-ArmPose arm_pose(const BodySpec& spec) {
+ArmPose arm_pose(const BodySpec& spec, BodySide side) {
   ArmPose pose{16 * kDegree, 8 * kDegree};
   if (spec.pose == "a_pose")
     pose = {42 * kDegree, 4 * kDegree};
   else if (spec.pose == "bent_arms")
     pose = {20 * kDegree, 18 * kDegree};
+  else if (spec.pose == "one_arm_bent")
+    pose = side == BodySide::left ? pose : ArmPose{24 * kDegree, 40 * kDegree};
   else if (spec.pose != "mannequin")
-    throw InputError("body.pose", "found \"" + spec.pose + "\"; expected mannequin, a_pose or bent_arms");
+    throw InputError("body.pose", "found \"" + spec.pose + "\"; expected mannequin, a_pose, bent_arms or one_arm_bent");
   if (spec.arm_angle_deg > 0) pose.angle = spec.arm_angle_deg * kDegree;
   return pose;
 }
@@ -88,7 +90,7 @@ void plan_arm(const ArmPose& pose, FigurePlan& plan) {
 
 double FigureShape::Level::exponent() const { return std::clamp(2.3 * std::exp(fullness), 1.8, 40.0); }
 
-FigurePlan make_plan(const BodySpec& spec, const BodySizes& p, const FigureShape& shape) {
+FigurePlan make_plan(const BodySpec& spec, const BodySizes& p, const FigureShape& shape, BodySide side) {
   FigurePlan plan;
   plan.female = spec.sex == "female";
   plan.sizes = p;
@@ -107,12 +109,14 @@ FigurePlan make_plan(const BodySpec& spec, const BodySizes& p, const FigureShape
   plan.ankle_x = std::max(0.95 * plan.leg_x, 0.055 * p.stature);
   plan.knee_z = -0.004;
   plan.ankle_z = -0.024 * p.stature;
-  plan_arm(arm_pose(spec), plan);
+  plan_arm(arm_pose(spec, side), plan);
 
   const NeckPlace neck = neck_place(plan.marks);
   plan.neck_center = neck.center;
   plan.neck_axis = neck.axis;
   plan.head_z = 0.020;
+  plan.chin = spec.chin_m;
+  plan.bow = spec.bow_deg * kDegree;
   return plan;
 }
 

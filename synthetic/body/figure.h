@@ -20,7 +20,8 @@ struct FigureShape {
   double crown_m = 0;   // shift of the crown
 };
 
-// Everything the parts of a figure share. World frame: stands on y = 0, faces +z; the left half (x > 0) is planned.
+// Everything the parts of a figure share. World frame: stands on y = 0, faces +z; a half is planned as the left one
+// (x > 0), also the right one.
 struct FigurePlan {
   bool female = false;
   BodySizes sizes;  // what is aimed at
@@ -36,9 +37,14 @@ struct FigurePlan {
   double elbow_s = 0, wrist_s = 0, elbow_back = 0;    // along the arm; elbow behind that line
   Vector3d neck_center{0, 0, 0}, neck_axis{0, 1, 0};  // middle of the neck, upwards along it
   double head_z = 0;                                  // middle of the skull
+  double chin = 0;                                    // how far the chin juts out, m
+  double bow = 0;                                     // of the head, radians
 };
 
-FigurePlan make_plan(const BodySpec& spec, const BodySizes& sizes, const FigureShape& shape);
+// Whose arm is planned: all else of a figure is the same on both sides.
+enum class BodySide { left, right };
+
+FigurePlan make_plan(const BodySpec& spec, const BodySizes& sizes, const FigureShape& shape, BodySide side);
 
 void add_torso(const FigurePlan& plan, Solid& solid);
 void add_leg(const FigurePlan& plan, Solid& solid);

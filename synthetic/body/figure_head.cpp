@@ -45,6 +45,11 @@ void add_neck_and_head(const FigurePlan& plan, Solid& solid) {
   head.add_ellipsoid(at(0, 0.145, 0.034), size(0.060 * jaw, 0.082, 0.056), 0.034);
   head.add_ellipsoid(at(0, 0.186, 0.040), size(0.046 * jaw, 0.038, 0.046), 0.030);
   head.add_ellipsoid(at(0, 0.212, 0.074), size(0.018 * jaw, 0.015, 0.014), 0.022);
+  const Vector3d jut = plan.chin * Vector3d(0, -0.6, 0.8);  // a jaw grows the way it points
+  if (plan.chin > 0) {
+    head.add_capsule(at(0, 0.190, 0.045), at(0, 0.208, 0.070) + jut, 0.034 * unit, 0.017 * unit, 0.022);
+    head.add_ellipsoid(at(0, 0.212, 0.074) + jut, size(0.018 * jaw, 0.015, 0.014), 0.014);
+  }
   head.add_ellipsoid(at(0.040, 0.144, 0.056), size(0.018, 0.014, 0.018), 0.022);
   head.add_ellipsoid(at(0.026, 0.103, 0.077), size(0.026, 0.008, 0.011), plan.female ? 0.016 : 0.012);
   head.carve_ellipsoid(at(0.032, 0.119, 0.096), size(0.019, 0.012, 0.014), 0.010);
@@ -54,10 +59,15 @@ void add_neck_and_head(const FigurePlan& plan, Solid& solid) {
   head.add_ellipsoid(at(0, 0.178, 0.083), size(0.022, 0.006, 0.010), 0.007);
   head.add_ellipsoid(at(0, 0.188, 0.081), size(0.019, 0.006, 0.010), 0.006);
   head.add_ellipsoid({half - 0.003, top - 0.127 * unit, z - 0.010}, size(0.008, 0.027, 0.016), 0.012);
-  solid.add_field([head](const Vector3d& q) { return head.field(q); },
-                  {Vector3d(-half - 0.02, top - 0.235 * unit, z - length / 2 - 0.02),
-                   Vector3d(half + 0.02, top, z + length / 2 + 0.035)},
-                  0.022);
+  Eigen::AlignedBox3d box(Vector3d(-half - 0.02, top - 0.235 * unit + jut.y(), z - length / 2 - 0.02),
+                          Vector3d(half + 0.02, top, z + length / 2 + 0.035 + jut.z()));
+  // Bowed about the top of the neck.
+  const Vector3d pivot = plan.neck_center + 0.050 * p.stature * plan.neck_axis;
+  const Isometry3d bowed =
+      Eigen::Translation3d(pivot) * Eigen::AngleAxisd(plan.bow, Vector3d::UnitX()) * Eigen::Translation3d(-pivot);
+  const Isometry3d upright = bowed.inverse();
+  if (plan.bow > 0) box = box.transformed(bowed);
+  solid.add_field([head, upright](const Vector3d& q) { return head.field(upright * q); }, box, 0.022);
 }
 
 }  // namespace dressform

@@ -5,6 +5,7 @@
 namespace dressform {
 namespace {
 
+// Of the left half and the middle.
 std::map<std::string, Vector3d> joints_of(const FigurePlan& plan) {
   const BodyLandmarks& m = plan.marks;
   const double hip_y = plan.sizes.trochanterion_height + 0.01;
@@ -28,19 +29,12 @@ std::map<std::string, Vector3d> joints_of(const FigurePlan& plan) {
       {"Ankle", {plan.ankle_x, m.ankle, plan.ankle_z}},
       {"Foot", {plan.ankle_x + 0.08 * plan.sizes.foot_length, 0.03, plan.ankle_z + 0.5 * plan.sizes.foot_length}},
   };
-  for (const auto& [name, place] : left) {
-    const std::string suffix = name;
-    // The SDK writes HandTipLeft and ThumbLeft like all others.
-    joints[suffix + "Left"] = place;
-    joints[suffix + "Right"] = Vector3d(-place.x(), place.y(), place.z());
-  }
+  for (const auto& [name, place] : left)  // the SDK writes HandTipLeft and ThumbLeft like all others
+    joints[std::string(name) + "Left"] = place;
   return joints;
 }
 
-}  // namespace
-
-Mannequin make_mannequin(const BodySpec& spec, const BodySizes& sizes, const FigureShape& shape) {
-  const FigurePlan plan = make_plan(spec, sizes, shape);
+Solid half_of(const FigurePlan& plan) {
   Solid solid;
   add_torso(plan, solid);
   add_leg(plan, solid);
@@ -49,13 +43,31 @@ Mannequin make_mannequin(const BodySpec& spec, const BodySizes& sizes, const Fig
   add_arm(plan, solid);
   add_hand(plan, solid);
   solid.cut_below(0);
+  return solid;
+}
+
+// How far out and ahead the hand reaches.
+Vector2d reach_of(const FigurePlan& plan) {
+  return {std::max(plan.hand_tip.x(), plan.elbow.x()) + 0.08, std::max(0.35, plan.hand_tip.z() + 0.06)};
+}
+
+}  // namespace
+
+Mannequin make_mannequin(const BodySpec& spec, const BodySizes& sizes, const FigureShape& shape) {
+  const FigurePlan left = make_plan(spec, sizes, shape, BodySide::left);
+  const FigurePlan right = make_plan(spec, sizes, shape, BodySide::right);
   Mannequin result;
-  result.left_half = solid;
-  const double reach = std::max(plan.hand_tip.x(), plan.elbow.x()) + 0.08;
-  const double ahead = std::max(0.35, plan.hand_tip.z() + 0.06);
-  result.box = Eigen::AlignedBox3d(Vector3d(-reach, -0.01, -0.35), Vector3d(reach, plan.marks.stature + 0.01, ahead));
-  result.landmarks = plan.marks;
-  result.joints = joints_of(plan);
+  result.left_half = half_of(left);
+  result.right_half = half_of(right);
+  const Vector2d to_left = reach_of(left), to_right = reach_of(right);
+  result.box =
+      Eigen::AlignedBox3d(Vector3d(-to_right.x(), -0.01, -0.35),
+                          Vector3d(to_left.x(), left.marks.stature + 0.01, std::max(to_left.y(), to_right.y())));
+  result.landmarks = left.marks;
+  result.joints = joints_of(left);
+  for (const auto& [name, place] : joints_of(right))
+    if (const auto at = name.rfind("Left"); at != std::string::npos)
+      result.joints[name.substr(0, at) + "Right"] = Vector3d(-place.x(), place.y(), place.z());
   return result;
 }
 

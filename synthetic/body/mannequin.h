@@ -10,14 +10,17 @@
 
 namespace dressform {
 
-// A standing figure as a field: left half, mirrored at x = 0. World frame, stands on y = 0, faces +z.
+// A standing figure as a field: two halves, the right one mirrored at x = 0; they differ in their arms alone. World
+// frame, stands on y = 0, faces +z.
 struct Mannequin {
-  Solid left_half;
+  Solid left_half, right_half;
   Eigen::AlignedBox3d box;
   BodyLandmarks landmarks;
   std::map<std::string, Vector3d> joints;
 
-  double field(const Vector3d& p) const { return left_half.field(Vector3d(std::abs(p.x()), p.y(), p.z())); }
+  double field(const Vector3d& p) const {
+    return (p.x() < 0 ? right_half : left_half).field(Vector3d(std::abs(p.x()), p.y(), p.z()));
+  }
 };
 
 // Landmark heights and joints follow from the sizes alone, not from the shape.

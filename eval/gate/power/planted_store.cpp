@@ -20,7 +20,8 @@ void plant_artifact(const fs::path& store, const std::vector<StageRecord>& recor
       continue;
     }
     fs::create_directories(to.folder(record.recipe).parent_path());
-    fs::create_directory_symlink(from.folder(record.recipe), to.folder(record.recipe));
+    if (!fs::exists(to.folder(record.recipe)))  // two labels may be one artifact
+      fs::create_directory_symlink(from.folder(record.recipe), to.folder(record.recipe));
   }
   if (!found) throw std::logic_error("the run has no stage " + label);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "eval/gate/accept.h"
 #include "eval/gate/power/planted_store.h"
@@ -151,9 +150,7 @@ PowerCell judged_cell(const PowerBase& base, const Fault& fault, std::size_t siz
   const GateResult result = compare_with_golden(base.reference, run, nuisance);
   cell.found = result.verdict != GateVerdict::pass;
   if (!result.bytes.origins.empty()) cell.by_bytes = result.bytes.origins.front();
-  int first = std::numeric_limits<int>::max();
-  for (const auto& finding : result.findings)
-    if (const int rank = rank_of_stage(finding.stage); rank < first) first = rank, cell.by_numbers = finding.stage;
+  cell.by_numbers = first_failing_stage(result.findings);
   if (!result.findings.empty()) cell.worst = result.findings.front().what() + ": " + result.findings.front().message;
   return cell;
 }

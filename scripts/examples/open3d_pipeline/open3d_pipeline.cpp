@@ -25,8 +25,10 @@ using open3d::geometry::TriangleMesh;
 
 namespace {
 
-constexpr double kAlignRadius_m = 4.0;    // about the world's axis: person, floor and walls, by which views are aligned
-constexpr double kFarthestTurn_deg = 15;  // three times what a prior of a rig is usually wrong by
+constexpr double kAlignRadius_m = 1.0;  // about the world's axis: person and floor, by which views are aligned
+constexpr double kFarthestTurn_deg =
+    20;  // three times what a prior of a rig is usually wrong by, one sensor against another
+constexpr double kFarthestStep_m = 0.5;   // likewise, at the person
 constexpr double kPersonRadius_m = 0.65;  // the person alone, arms away from the body
 constexpr double kFloor_m = 0.03;         // below is floor
 constexpr double kSplit = 0.54;           // of the person's height, between what is worn above and below: the waist
@@ -102,18 +104,21 @@ std::shared_ptr<PointCloud> within(const PointCloud& cloud, double radius_m, dou
   return cloud.SelectByIndex(kept);
 }
 
-// Moves `cloud`, which the prior has put roughly in place, onto `target`: point-to-plane ICP from coarse to fine, the
-// room first. What it moves farther than the prior can be wrong it has moved to the wrong place: then the prior stays.
+// Moves `cloud`, which the prior has put roughly in place, onto `target`: point-to-plane ICP from coarse to fine. What
+// it moves farther than the prior can be wrong it has moved to the wrong place: then the prior stays.
 Eigen::Matrix4d aligned(const PointCloud& cloud, const PointCloud& target, double voxel_m) {
   namespace registration = open3d::pipelines::registration;
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
-  for (const double reach_m : {0.25, 0.1, 4 * voxel_m})
+  for (const double reach_m : {0.4, 0.15, 4 * voxel_m})
     motion = registration::RegistrationICP(
                  cloud, target, reach_m, motion,
                  registration::TransformationEstimationPointToPlane(std::make_shared<registration::TukeyLoss>(reach_m)))
                  .transformation_;
   const double turn_deg = Eigen::AngleAxisd(Eigen::Matrix3d(motion.block<3, 3>(0, 0))).angle() * 180 / M_PI;
-  return turn_deg < kFarthestTurn_deg ? motion : Eigen::Matrix4d(Eigen::Matrix4d::Identity());
+  const Eigen::Vector3d middle(0, 1, 0);
+  const double step_m = (motion.block<3, 3>(0, 0) * middle + motion.block<3, 1>(0, 3) - middle).norm();
+  const bool likely = turn_deg < kFarthestTurn_deg && step_m < kFarthestStep_m;
+  return likely ? motion : Eigen::Matrix4d(Eigen::Matrix4d::Identity());
 }
 
 // The surface's part between two heights, its largest piece.
@@ -156,6 +161,26 @@ void write_registration(const fs::path& file, const std::map<std::string, Eigen:
   std::ofstream(file) << text.dump(1) << "\n";
 }
 
+// Sensors in an order in which each looks much the same way as one before it: what faces another has little in common
+// with it until the sides are there.
+std::vector<std::string> neighbours_first(const json& sensors, const json& prior) {
+  std::vector<std::string> left = sensors, order{left.front()};
+  left.erase(left.begin());
+  const auto view = [&](const std::string& sensor) -> Eigen::Vector3d {
+    return matrix_of(prior.at(sensor)).block<3, 1>(0, 2);
+  };
+  while (!left.empty()) {
+    auto next = left.begin();
+    double nearest = -2;
+    for (auto each = left.begin(); each != left.end(); ++each)
+      for (const auto& before : order)
+        if (const double cosine = view(*each).dot(view(before)); cosine > nearest + 1e-9) nearest = cosine, next = each;
+    order.push_back(*next);
+    left.erase(next);
+  }
+  return order;
+}
+
 void run(const fs::path& session, const fs::path& out, double voxel_m) {
   const json index = read_json(session / "session.json"),
              sensors = read_json(session / "calibration.json").at("sensors");
@@ -163,7 +188,8 @@ void run(const fs::path& session, const fs::path& out, double voxel_m) {
     throw std::runtime_error("session.json: no prior of the rig to start from");
   std::map<std::string, Eigen::Matrix4d> poses;
   PointCloud all;
-  for (const std::string sensor : index.at("shots").at("dressed")) {
+  for (const std::string& sensor :
+       neighbours_first(index.at("shots").at("dressed"), index.at("world_from_sensor_prior"))) {
     auto cloud = cloud_of(session / "dressed" / sensor, sensors.at(sensor));
     Eigen::Matrix4d pose = matrix_of(index.at("world_from_sensor_prior").at(sensor));
     cloud = within(cloud->Transform(pose), kAlignRadius_m, -0.2)->VoxelDownSample(voxel_m);
