@@ -111,7 +111,8 @@ class GridMaker {
     if (!row)
       throw InputError((run.folder / "scores.json").string(),
                        "has no row " + metric + "; expected a stage and a row, e.g. surface top/f_5mm@1");
-    return row->status == "ok" ? number_text(row->value, row->unit) : row->status;
+    const std::string name = row->metric.substr(0, row->metric.find('@'));
+    return name + " " + (row->status == "ok" ? number_text(row->value, row->unit) : row->status);
   }
 
   cv::Mat captured(const GridRun& run, const GridChoice& choice) {

@@ -41,7 +41,7 @@ RenderItem unlit(const TexturedMesh& mesh) {
 
 // The estimate and the truth, seen from between the sensors.
 ImageComparison beside_truth(const std::string& slot, const TexturedMesh& truth, const TexturedMesh& estimate,
-                        Renderer& renderer) {
+                             Renderer& renderer) {
   Eigen::AlignedBox3d box;
   for (const auto& vertex : truth.mesh.vertices) box.extend(vertex);
   std::vector<RenderView> views;

@@ -115,7 +115,10 @@ class GridPainter {
                           cv::Rect(0, 0, picture.cols, picture.rows);
     const double side = zoom_side(), fit = side / std::max(part.width, part.height);
     const Vector2d shown(fit * part.width, fit * part.height);
-    const double x = below.x() + static_cast<double>(number) * (side + 0.5 * style_.gap_mm);
+    const double count = static_cast<double>(figure_.zooms.size()), step = side + 0.5 * style_.gap_mm;
+    const double first = below.x() + 0.5 * (cell_ - count * step + 0.5 * style_.gap_mm);
+    const double x =
+        first + static_cast<double>(number) * step + 0.5 * (side - shown.x());  // in the middle of its place
     const Vector2d at(x, below.y() + 0.5 * style_.gap_mm);
     canvas.picture(at, shown, picture(part).clone());
     canvas.rectangle(at, shown, ink, kZoomFrameMm);
