@@ -54,7 +54,7 @@ void give_opened(const OracleInput& input, GivenArtifacts& given) {
     const auto rims = input.truth.rims.find(slot);
     if (rims == input.truth.rims.end()) throw InputError("truth", "has no rims of " + slot + "; expected them");
     for (const auto& rim : rims->second) {
-      garment.rims.push_back({rim.name, {}, rim.visible >= kObserved});
+      garment.rims.push_back({rim.name, {}, rim.visible >= kObserved, {}});
       for (const auto& point : rim.points) garment.rims.back().points.push_back(model_from_world * point);
     }
   }
