@@ -16,14 +16,14 @@ GridChoice read_choice(TomlSection& section) {
     if (!run->is_string()) section.fail("run", "expected a run folder");
     choice.run = fs::absolute(resolved_path(*run, run->as_string()->get() + "/run.json")).parent_path();
   }
-  section("show", choice.show, {"capture", "mannequin", "user", "error", "file"}, "");
+  section("show", choice.show, {"capture", "mannequin", "user", "error", "image"}, "");
   section("slot", choice.slot, {"top", "bottom"}, "");
   section("sensor", choice.sensor, {}, "");
   choice.has_view = section.has("view_deg");
   section("view_deg", choice.view_deg, -360, 360, "deg", "");
-  section("file", choice.file, {}, "");
+  section("image", choice.file, {}, "");
   section("metric", choice.metric, {}, "");
-  if (!choice.file.empty() && choice.show.empty()) choice.show = "file";
+  if (!choice.file.empty() && choice.show.empty()) choice.show = "image";
   return choice;
 }
 
@@ -32,8 +32,8 @@ void check_cell(const fs::path& file, const GridChoice& cell, std::size_t row, s
     throw InputError(file.string(), fmt::format("row {}, column {}: {}", row + 1, column + 1, problem));
   };
   if (cell.run.empty()) fail("found no run; expected one in the row or the column");
-  if (cell.show.empty()) fail("found no show; expected capture, mannequin, user, error or file");
-  if (cell.show == "file" && cell.file.empty()) fail("found no file; expected an image of the run's folder");
+  if (cell.show.empty()) fail("found no show; expected capture, mannequin, user, error or image");
+  if (cell.show == "image" && cell.file.empty()) fail("found no image; expected a file of the run's folder");
 }
 
 }  // namespace

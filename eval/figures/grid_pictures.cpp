@@ -97,7 +97,7 @@ class GridMaker {
     if (choice.show == "mannequin") cell.picture = worn(run, choice, "naked_body.ply", ".glb", run.heading());
     if (choice.show == "user") cell.picture = worn(run, choice, "user_body.ply", "_fitted.glb", run.user_heading);
     if (choice.show == "error") cell.picture = errors(run, choice);
-    if (choice.show == "file") cell.picture = read_image(run.folder / choice.file, kColorOrGreyImage);
+    if (choice.show == "image") cell.picture = read_image(run.folder / choice.file, kColorOrGreyImage);
     if (!choice.metric.empty()) cell.note = value_text(run, choice.metric);
     if (cell.picture.empty()) cell.note = "not made";
     return cell;

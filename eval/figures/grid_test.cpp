@@ -20,7 +20,6 @@ class GridToml : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "run");
     std::ofstream(folder_ / "run/run.json") << "{}";
-    std::ofstream(folder_ / "a.png") << "a picture";
   }
   GridFile read(const std::string& text) const {
     std::ofstream(folder_ / "grid.toml") << text;
@@ -41,14 +40,14 @@ TEST_F(GridToml, ACellTakesOfTheColumnWhatTheRowLeavesOpen) {
   const GridFile grid = read(
       "width = \"column\"\n[[row]]\nlabel = \"ours\"\nrun = \"run\"\nview_deg = 90\n"
       "[[column]]\nlabel = \"result\"\nshow = \"mannequin\"\nview_deg = 10\n"
-      "[[column]]\nfile = \"a.png\"\n[[zoom]]\nx = 0.5\ny = 0.25\nwidth = 0.5\nheight = 0.1\n");
+      "[[column]]\nimage = \"renders/a.png\"\n[[zoom]]\nx = 0.5\ny = 0.25\nwidth = 0.5\nheight = 0.1\n");
   EXPECT_TRUE(grid.column);
   ASSERT_EQ(grid.columns.size(), 2u);
   const GridChoice cell = joined_choice(grid.rows[0], grid.columns[0]);
   EXPECT_EQ(cell.show, "mannequin");
   EXPECT_EQ(cell.view_deg, 90);
   EXPECT_EQ(cell.run.filename(), "run");
-  EXPECT_EQ(joined_choice(grid.rows[0], grid.columns[1]).show, "file");
+  EXPECT_EQ(joined_choice(grid.rows[0], grid.columns[1]).show, "image");
   EXPECT_EQ(grid.zooms.size(), 1u);
 }
 

@@ -6,10 +6,8 @@
 namespace dressform {
 namespace {
 
-constexpr double kNearest_m = 0.1;    // of the depth camera: nearer is behind or beside it
-constexpr double kJump_m = 0.05;      // between two places of one piece of cloth there is no larger step of depth
-constexpr double kRayStep_px = 0.5;   // between rays that look for an outline of the body
-constexpr double kOutline_m = 0.006;  // a step of depth beyond what slopes make: scanned bodies are true to half of it
+constexpr double kNearest_m = 0.1;  // of the depth camera: nearer is behind or beside it
+constexpr double kJump_m = 0.05;    // between two places of one piece of cloth there is no larger step of depth
 
 // One registered colour view.
 struct ColorView {
@@ -66,20 +64,6 @@ bool hidden(const DepthView& view, const Vector3d& point, double in_front_m) {
   return z > 0 && z / 1000.0 < p.z() - in_front_m;
 }
 
-// Whether, on the way across an edge, the body has an outline of its own whose nearer side lies outside: then the body
-// hides the cloth that goes on behind it (a chin before the neckline), and the edge says nothing of the cloth's end.
-bool hidden_by_body(const ColorView& view, const Edge& edge, const MeshQuery& naked, const MaskEdgeParams& params) {
-  const double beside_m = kRayStep_px / view.depth->sensor->color->fx;  // from ray to ray, at a distance of 1 m
-  const double steepest = std::sqrt(1 / (params.least_cosine * params.least_cosine) - 1);
-  double before = 0;  // distance on the ray before; 0: it missed
-  for (double step = -params.inside_px; step <= params.outside_px; step += kRayStep_px) {
-    const auto hit = naked.first_hit(view.centre, view.ray(edge.x + step * edge.dx, edge.y + step * edge.dy));
-    if (hit && before - hit->distance > kOutline_m + steepest * beside_m * before) return true;
-    before = hit ? hit->distance : 0;
-  }
-  return false;
-}
-
 struct RimPoint {
   Vector3d point, beyond;  // on the closed surface at the edge, and a little outside it
   double cosine = 0;
@@ -102,7 +86,7 @@ std::optional<RimPoint> rim_point(const ColorView& view, const Edge& edge, const
   const auto body = naked.first_hit(view.centre, ray), body_beyond = naked.first_hit(view.centre, ray_beyond);
   if (body && body->distance < hit->distance - params.in_front_m) return {};
   if (body_beyond && body_beyond->distance < further->distance - params.in_front_m) return {};
-  if (hidden(*view.depth, hit->point, 2 * params.in_front_m) || hidden_by_body(view, edge, naked, params)) return {};
+  if (hidden(*view.depth, hit->point, 2 * params.in_front_m)) return {};
   return RimPoint{hit->point, further->point, cosine};
 }
 

@@ -22,7 +22,7 @@ struct MaskEdgeParams {
 };
 
 // Rim points of a garment, by opening: pixels where its mask ends although the closed surface goes on, thrown back on
-// that surface. Outlines, edges made by something in front (an arm, a chin, the garment worn `over` it) are left out.
+// that surface. Outlines, edges made by something in front (an arm, the garment worn `over` it) are left out.
 std::map<std::string, std::vector<RimSample>> rim_samples(const Segmentation& segmentation, Label garment,
                                                           std::optional<Label> over, const CaptureSession& session,
                                                           const std::vector<DepthView>& views, const MeshQuery& closed,

@@ -5,7 +5,6 @@
 
 #include "pipeline/geometry/submesh.h"
 #include "pipeline/surface/leg_tube.h"
-#include "pipeline/surface/overhang.h"
 
 namespace dressform {
 namespace {
@@ -22,12 +21,11 @@ std::vector<char> kept_triangles(const MeshQuery& naked, const Landmarks& limbs,
                                  double past_m) {
   const Mesh& body = naked.mesh();
   std::vector<char> kept(body.triangles.size());
-  const std::vector<char> hangs = overhanging(body, limbs);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const Vector3i& t = body.triangles[i];
     const Vector3d centre = (body.vertices[t[0]] + body.vertices[t[1]] + body.vertices[t[2]]) / 3;
     const BodyPart part = limbs.triangle_parts[i];
-    kept[i] = centre.y() < layout.top_y + past_m && !hangs[i];
+    kept[i] = centre.y() < layout.top_y + past_m;
     if (is_arm(part)) {
       const LimbCover& arm = layout.arms[side_of(part)];
       kept[i] = arm.covered && limbs.arm(side_of(part))->along(centre) < arm.end_m + past_m;

@@ -28,7 +28,7 @@ ClosedGarments run(const std::string& variant, const figure::Capture& c, const F
 FieldValues coarse(const std::string& variant) {
   if (variant == "layer") return {};
   if (variant == "poisson") return {{"depth", 6}};
-  return {{variant == "tsdf" ? "voxel_m" : "step_m", 0.012}};
+  return {{"step_m", 0.012}};
 }
 
 // Distances of vertices to the true cloth, ends and their margins left out.
@@ -116,7 +116,6 @@ ErrorBounds bounds_of(const std::string& variant) {
   if (variant == "layer") return {0.0025, 0.010};
   if (variant == "poisson") return {0.0025, 0.015};
   if (variant == "rbf_carr") return {0.0025, 0.020};      // bulges over the waist
-  if (variant == "tsdf") return {0.005, 0.060};           // flat caps where the views' depth ends
   if (variant == "alpha") return {0.009, 0.050};          // no triangles where no points are: the legs are one
   if (variant == "ball_pivoting") return {0.008, 0.055};  // the same
   return {0.0025, 0.015};

@@ -31,13 +31,8 @@ inline double leg(const Vector3d& p, double side) {
 inline double torso(const Vector3d& p) {
   return std::min(capsule(p, {0, 1.0, 0}, {0, 1.35, 0}, 0.15), capsule(p, {0, 1.4, 0}, {0, 1.7, 0}, 0.06));
 }
-// A chin that juts so far out, down before the neckline.
-inline double chin(const Vector3d& p, double juts_m) {
-  return capsule(p, {0, 1.66, 0.05}, {0, 1.66 - 1.29 * juts_m, 0.05 + juts_m}, 0.045);
-}
-inline double body(const Vector3d& p, double chin_m = 0) {
+inline double body(const Vector3d& p) {
   double d = std::min(torso(p), (p - Vector3d(0, 1.68, 0)).norm() - 0.10);
-  if (chin_m > 0) d = std::min(d, chin(p, chin_m));
   for (const double side : {-1.0, 1.0}) d = std::min({d, arm(p, side), leg(p, side)});
   return d;
 }
@@ -51,7 +46,6 @@ struct Clothes {
   double waist_y = 1.08, ankle_y = 0.25;
   bool skirt = false;
   double shirt_ease_m = 0.020, bottom_ease_m = 0.010;
-  double chin_m = 0;  // of who wears them: 0 has none
 };
 
 // Negative inside the shirt taken as a solid, flat at its ends.
@@ -83,8 +77,8 @@ Mesh surface_of(const Vector3d& low, const Vector3d& high, double step_m, F&& di
   for (std::size_t i = 0; i < field.size(); ++i) field[i] = static_cast<float>(distance(lattice.point(i)));
   return lattice_surface(lattice, field);
 }
-inline Mesh body_mesh(double step_m = 0.012, double chin_m = 0) {
-  return surface_of({-0.45, 0, -0.25}, {0.45, 1.8, 0.25}, step_m, [=](const Vector3d& p) { return body(p, chin_m); });
+inline Mesh body_mesh(double step_m = 0.012) {
+  return surface_of({-0.45, 0, -0.25}, {0.45, 1.8, 0.25}, step_m, [](const Vector3d& p) { return body(p); });
 }
 
 // What the stages after segmentation are given.
@@ -117,7 +111,7 @@ inline std::pair<double, Label> look(const Camera& camera, const Isometry3d& mod
   double t = 1.0;
   for (int i = 0; i < 200 && t < 4; ++i) {
     const Vector3d p = model_from_camera.translation() + t * direction;
-    const double d[3] = {body(p, c.chin_m), shirt(p, c), bottom(p, c)};
+    const double d[3] = {body(p), shirt(p, c), bottom(p, c)};
     const double nearest = std::min({d[0], d[1], d[2]});
     if (nearest < 2e-4) {
       Label label = Label::skin;
@@ -148,7 +142,7 @@ inline Isometry3d looking_from_side(int k) {
 inline Capture capture(const Clothes& clothes, double noise_m = 0.002, double scale = 0.5, Seed seed = 1) {
   Capture result;
   result.clothes = clothes;
-  result.naked.body = body_mesh(0.012, clothes.chin_m);
+  result.naked.body = body_mesh();
   result.naked.converged = true;
   result.body = known_body(result.naked.body);
   SensorCalibration sensor;
