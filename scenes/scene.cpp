@@ -258,9 +258,11 @@ Scene scaled(const Scene& scene, double scale) {
   };
   for (auto& sensor : result.rig) shrink(sensor.calibration);
   shrink(result.scan.calibration);
-  // Frames follow, down to what a walk needs: with fewer pixels a walk's drift hides in their noise.
-  constexpr int kLeastFrames = 60;  // six degrees apart: bodies as near the truth as with 120 at 0.4 (medians +.05 mm)
-  const int frames = static_cast<int>(std::lround(scene.scan.frames * scale));
+  // Below the scale from which targets are meant to hold, walks lose frames too, down to what one needs: with 60 of 120
+  // at 0.4, bodies are as near the truth (medians +.05 mm); with 72 at 0.6 views would stand .6 mm worse.
+  constexpr double kAllFrames = 0.6;
+  constexpr int kLeastFrames = 60;  // six degrees apart
+  const int frames = static_cast<int>(std::lround(scene.scan.frames * std::min(1.0, scale / kAllFrames)));
   result.scan.frames = std::min(scene.scan.frames, std::max(kLeastFrames, frames));
   result.picking.click_px *= scale;  // the hand sees the same picture
   return result;

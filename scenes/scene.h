@@ -147,8 +147,8 @@ struct Scene {
 // column for syntax, unknown keys, wrong types and ranges.
 Scene read_scene(const std::filesystem::path& file);
 
-// The scene with all images resampled by `scale` (0 < scale <= 1), for quick runs; walks of more than 60 frames lose
-// frames by the same part, down to 60.
+// The scene with all images resampled by `scale` (0 < scale <= 1), for quick runs; below 0.6 walks of more
+// than 60 frames lose frames too.
 Scene scaled(const Scene& scene, double scale);
 
 }  // namespace dressform
