@@ -1,5 +1,6 @@
 #include "eval/report/rim_marks.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dressform {
@@ -61,7 +62,9 @@ std::string unseen_rims_caption(const OpenGarments& opened) {
       const int percent = static_cast<int>(std::lround(100 * rim.unseen_part()));
       if (percent == 0) continue;
       const std::string part = rim.observed ? std::to_string(percent) + " % of the " : "the ";
-      names += (names.empty() ? "" : ", ") + part + slot + "'s " + rim.name;
+      std::string name = rim.name;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      names += (names.empty() ? "" : ", ") + part + slot + "'s " + name;
     }
   return names.empty() ? "" : "No view saw " + names + ": carried on from what was seen.";
 }

@@ -1,5 +1,6 @@
 #include "eval/report/rim_marks.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,6 +36,10 @@ TEST(RimMarks, WhatNobodySawIsNamedAndDrawnApart) {
   for (const auto& p : neck.points) neck.hidden.push_back(p.z() > 0 && std::abs(p.x()) < 0.0707);
   EXPECT_EQ(unseen_rims_caption(opened),
             "No view saw the bottom's waist, 25 % of the top's neck: carried on from what was seen.");
+  opened.garments["bottom"].rims[1].name = "left_ankle";
+  opened.garments["bottom"].rims[1].observed = false;
+  EXPECT_THAT(unseen_rims_caption(opened), testing::HasSubstr("the bottom's left ankle"));
+  opened.garments["bottom"].rims[1].observed = true;
   const RimMarks parted = rim_marks(opened.garments.at("top"));
   ASSERT_FALSE(parted.unseen.triangles.empty());
   for (const auto& t : parted.unseen.triangles) EXPECT_GT(parted.unseen.vertices[t[0]].z(), 0.05);

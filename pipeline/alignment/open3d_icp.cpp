@@ -130,7 +130,8 @@ PointCloud colored_by(const PointCloud& cloud, const PointCloud& seen, double re
   PointCloud result = cloud;
   result.colors.assign(cloud.points.size(), Vector3f::Constant(kGrey));
   if (seen.points.empty()) return result;
-  const open3d::geometry::KDTreeFlann near_seen(to_open3d(seen));
+  const auto searched = to_open3d(seen);  // Open3D's tree looks at the cloud's own points: it has to outlive the tree
+  const open3d::geometry::KDTreeFlann near_seen(searched);
   std::vector<int> indices;
   std::vector<double> squared;
   open3d::geometry::PointCloud colored;
