@@ -17,7 +17,8 @@ struct AlphaParams {
 template <class V>
 void fields(V& v, AlphaParams& p) {
   fields(v, p.cloud);
-  v("normal_neighbours", p.normal_neighbours, 4, 200, "", "nearest points whose principal components give a normal");
+  v("normal_neighbours", p.normal_neighbours, 4, 200, "",
+    "least nearest points whose principal components give a normal; more where more lie within 35 mm");
   v("alpha", p.alpha, 1.0, 50.0, "", "radius of the ball that no tetrahedron is larger than, over the median spacing");
   v("step_m", p.step_m, 0.003, 0.03, "m", "of the lattice on which holes are closed and webs taken out");
   v("fewest_points", p.fewest_points, 50, 100000, "", "a garment with fewer points is left out");

@@ -18,7 +18,8 @@ struct BallPivotingParams {
 template <class V>
 void fields(V& v, BallPivotingParams& p) {
   fields(v, p.cloud);
-  v("normal_neighbours", p.normal_neighbours, 4, 200, "", "nearest points whose principal components give a normal");
+  v("normal_neighbours", p.normal_neighbours, 4, 200, "",
+    "least nearest points whose principal components give a normal; more where more lie within 35 mm");
   v("first_radius", p.first_radius, 0.5, 20.0, "", "of the smallest ball, over the points' median spacing");
   v("radii", p.radii, 1, 8, "", "balls, each twice as large as the one before");
   v("step_m", p.step_m, 0.003, 0.03, "m", "of the lattice on which holes are closed and webs taken out");

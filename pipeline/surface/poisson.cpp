@@ -22,7 +22,8 @@ struct PoissonParams {
 template <class V>
 void fields(V& v, PoissonParams& p) {
   fields(v, p.cloud);
-  v("normal_neighbours", p.normal_neighbours, 4, 200, "", "nearest points whose principal components give a normal");
+  v("normal_neighbours", p.normal_neighbours, 4, 200, "",
+    "least nearest points whose principal components give a normal; more where more lie within 35 mm");
   v("depth", p.depth, 4, 10, "", "of the octree: the thesis's 8");
   v("scale", p.scale, 1.01, 4.0, "", "edge of the octree's cube over the points' largest extent");
   v("step_m", p.step_m, 0.003, 0.03, "m", "of the lattice on which webs and handles are taken out");

@@ -26,7 +26,8 @@ struct RbfCarrParams {
 template <class V>
 void fields(V& v, RbfCarrParams& p) {
   fields(v, p.cloud);
-  v("normal_neighbours", p.normal_neighbours, 4, 200, "", "nearest points whose principal components give a normal");
+  v("normal_neighbours", p.normal_neighbours, 4, 200, "",
+    "least nearest points whose principal components give a normal; more where more lie within 35 mm");
   v("offset_m", p.offset_m, 0.002, 0.1, "m", "of the samples beside the surface; halved where it would cross another");
   v("offset_every", p.offset_every, 1, 100, "", "of the points, one has samples beside it");
   v("first_centres", p.fit.first_centres, 20, 5000, "", "centres of the first function");
